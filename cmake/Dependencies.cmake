@@ -1,0 +1,13 @@
+# Everything comes from the system's packages; nothing is downloaded. scripts/install-dependencies lists the packages.
+find_package(Vulkan REQUIRED)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(glm REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(OpenEXR REQUIRED)
+find_package(SPIRV-Tools-opt REQUIRED)
+find_package(TinyGLTF REQUIRED)
+pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+find_program(GLSLANG glslangValidator REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)

@@ -1,0 +1,26 @@
+# isophote_embed_kernels(target file.comp...): glslang -> spirv-val -> a C++ table linked into `target`.
+# The kernel of x.comp is <target>_kernels::kernelSource("x"), declared in "<target>_kernels.hpp".
+function(isophote_embed_kernels target)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
+  file(MAKE_DIRECTORY ${out})
+  set(flags -V --target-env vulkan1.3 --quiet -I${PROJECT_SOURCE_DIR}/shaders -I${CMAKE_CURRENT_SOURCE_DIR})
+  if(ISOPHOTE_CHECK_BOUNDS)
+    list(APPEND flags -DISOPHOTE_CHECK_BOUNDS=1)
+  endif()
+  set(binaries)
+  foreach(source IN LISTS ARGN)
+    get_filename_component(name ${source} NAME_WE)
+    set(spv ${out}/${name}.spv)
+    add_custom_command(OUTPUT ${spv}
+      COMMAND ${GLSLANG} ${flags} --depfile ${spv}.d -o ${spv} ${source}
+      COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${spv}
+      DEPENDS ${source} DEPFILE ${spv}.d COMMENT "GLSL ${name}" VERBATIM)
+    list(APPEND binaries ${spv})
+  endforeach()
+  add_custom_command(OUTPUT ${out}/${target}_kernels.cpp ${out}/${target}_kernels.hpp
+    COMMAND ${CMAKE_COMMAND} -DTARGET=${target} -DOUT=${out} "-DBINARIES=${binaries}"
+            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+    DEPENDS ${binaries} ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake COMMENT "Embedding kernels of ${target}" VERBATIM)
+  target_sources(${target} PRIVATE ${out}/${target}_kernels.cpp ${out}/${target}_kernels.hpp)
+  target_include_directories(${target} PRIVATE ${out})
+endfunction()

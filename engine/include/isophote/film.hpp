@@ -1,0 +1,60 @@
+// Where samples end up: exact sums per pixel, and what can be said of the image from them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "isophote/device.hpp"
+#include "isophote/image.hpp"
+#include "isophote/settings.hpp"
+
+namespace isophote {
+
+/// Relative RMS error of an image: sqrt(mean over pixels and channels of Var[mean] / (mean^2 + e^2)), e = 1% of the
+/// image's mean luminance.
+struct ErrorEstimate {
+  double value = 0;
+  double lower = 0; ///< 95% confidence interval
+  double upper = 0;
+  bool known = false; ///< false until two replicates hold samples
+};
+
+struct FilmOptions {
+  uint32_t width = 0;  ///< 1 to 65535
+  uint32_t height = 0;
+  PixelRect crop;      ///< empty: the full image
+  bool aovs = true;    ///< albedo, normal, depth and position of the first hit
+};
+
+/// Per pixel and independent replicate, 64-bit fixed-point sums that are exact and associative. Borrows the Device.
+class Film {
+public:
+  /// @throws LimitError with needed and available bytes
+  Film(const Device& device, const FilmOptions& options);
+  Film(Film&&) noexcept;
+  Film& operator=(Film&&) noexcept;
+  ~Film();
+
+  [[nodiscard]] const FilmOptions& options() const;
+  [[nodiscard]] uint64_t bytes() const;
+  void clear();
+
+  /// Mean, standard error, 95% interval, sample count and AOVs as the channels of interface.md.
+  /// Reads the sums back once; wait for PathTracer to finish first.
+  [[nodiscard]] Image resolve() const;
+
+  /// Estimated on the device from the replicates, cheap enough to call every second.
+  [[nodiscard]] ErrorEstimate error() const;
+
+  /// Writes tone-mapped RGBA8 (packed, R lowest) of the crop, row 0 at the top, to the buffer at `address`: what a viewer shows.
+  /// Recorded and waited for.
+  void display(uint64_t address, float exposureEv, ToneMap operation) const;
+
+  struct Impl;
+  [[nodiscard]] Impl& impl() const { return *impl_; }
+
+private:
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace isophote

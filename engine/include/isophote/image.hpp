@@ -1,0 +1,57 @@
+// Images as named float planes, and the files they go to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace isophote {
+
+/// One float plane, row 0 at the top, `width * height` values.
+struct Channel {
+  std::string name; ///< EXR name, such as "R" or "stderr.G"
+  std::vector<float> values;
+};
+
+struct Image {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  std::vector<Channel> channels;
+  std::map<std::string, std::string> attributes; ///< string attributes, such as "isophote.seed"
+  float renderSeconds = 0;                       ///< the standard renderTime attribute, where positive
+
+  /// The plane called `name`, or null.
+  [[nodiscard]] const Channel* find(const std::string& name) const;
+};
+
+/// Writes float32 planes to one part of an OpenEXR file, through a temporary name in the same folder: the final name
+/// appears only when every byte is on disk.
+/// @throws OutputError; an earlier file of that name is then untouched
+void writeExr(const std::filesystem::path& file, const Image& image);
+
+/// Reads every channel of the first part as float32 with the string attributes.
+/// @throws SceneError, LimitError
+[[nodiscard]] Image readExr(const std::filesystem::path& file);
+
+enum class ToneMap : uint32_t { Neutral, Agx, Aces, Srgb, Linear };
+
+/// Scene-linear Rec.709 to display-referred sRGB in [0, 1]. `color` is already exposed.
+[[nodiscard]] glm::vec3 toneMap(glm::vec3 color, ToneMap operation);
+
+/// Writes R, G, B (and A where present) as 8-bit sRGB, tone-mapped after exposure by 2^exposureEv. Atomic like writeExr.
+/// @throws OutputError
+void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation);
+
+/// Writes `bytes` under a temporary name in the same folder, syncs, and renames over `file`.
+/// @throws OutputError
+void writeFileAtomically(const std::filesystem::path& file, const std::string& bytes);
+
+/// Fails early where `file` could not be written at the end: missing or read-only folder, a directory, a bad name.
+/// @throws OutputError
+void checkWritable(const std::filesystem::path& file);
+
+} // namespace isophote

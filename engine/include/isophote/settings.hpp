@@ -1,0 +1,48 @@
+// What a render is asked to do. Defaults are unbiased.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include <glm/glm.hpp>
+
+namespace isophote {
+
+enum class SamplerKind : uint32_t { Sobol, Independent };
+enum class PixelFilter : uint32_t { Box, Gaussian, BlackmanHarris };
+enum class LightSampling : uint32_t { Mis, LightsOnly, BsdfOnly };
+enum class MisHeuristic : uint32_t { Balance, Power };
+
+inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
+
+/// Everything the image depends on besides scene, camera and sample range.
+struct EstimatorSettings {
+  SamplerKind sampler = SamplerKind::Sobol;
+  PixelFilter filter = PixelFilter::BlackmanHarris;
+  LightSampling lightSampling = LightSampling::Mis;
+  MisHeuristic misHeuristic = MisHeuristic::Power;
+  uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
+  bool russianRoulette = true;
+  uint64_t seed = 0;
+};
+
+/// How the work is cut; never changes a bit of the image on one device and driver.
+struct ExecutionSettings {
+  uint32_t pathPoolSize = 0;  ///< 0: chosen for the device
+  uint32_t workgroupSize = 0; ///< 0: chosen for the device
+  bool specialize = true;     ///< false: the all-features kernels
+  double submitMilliseconds = 100; ///< aim for the length of one submit
+};
+
+/// A rectangle of the full image in pixels, [x0, x1) x [y0, y1), row 0 at the top.
+struct PixelRect {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// Samples [first, last) of every pixel.
+struct SampleRange {
+  uint32_t first = 0;
+  uint32_t last = 0;
+};
+
+} // namespace isophote

@@ -1,0 +1,42 @@
+// Bounding volume hierarchies over axis-aligned boxes: a pure function of the boxes, deterministic.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "shared/geometry_types.h"
+
+namespace isophote {
+
+struct Box {
+  glm::vec3 lower{3.402823466e38f};
+  glm::vec3 upper{-3.402823466e38f};
+  void grow(glm::vec3 point) { lower = glm::min(lower, point); upper = glm::max(upper, point); }
+  void grow(const Box& other) { lower = glm::min(lower, other.lower); upper = glm::max(upper, other.upper); }
+};
+
+/// Nodes with indices relative to this BVH (root 0, leaf items index `order`). Never empty: no boxes give one node with
+/// two absent children; one leaf gives a node whose second child is absent.
+struct Bvh {
+  std::vector<gpu::BvhNode> nodes;
+  std::vector<uint32_t> order; ///< item numbers in leaf order
+  uint32_t maxDepth = 0;       ///< inner nodes from root to the deepest leaf, <= gpu::kMaxBvhDepth
+  double sahCost = 0;          ///< expected node steps + item tests for a random ray that hits the root box
+  Box bounds;
+};
+
+struct BvhBuildOptions {
+  uint32_t maxLeafItems = 4;
+  float nodeCost = 1;
+  float itemCost = 1;
+  uint32_t threads = 0; ///< 0: all cores; the result does not depend on it
+};
+
+/// Builds by binned surface-area heuristic (Wald 2007), falling back to object medians near the depth limit.
+/// Boxes must be finite. Equal input gives equal output on any number of threads.
+[[nodiscard]] Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options = {});
+
+} // namespace isophote

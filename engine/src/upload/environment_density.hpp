@@ -1,0 +1,21 @@
+// The sampling density of an environment map.
+#pragma once
+
+#include <vector>
+
+#include "isophote/scene.hpp"
+
+namespace isophote {
+
+/// Cumulative sums of a piecewise-constant density over the texels of an equirectangular map, see EnvironmentRecord.
+struct EnvironmentDensity {
+  std::vector<float> marginal;    ///< height + 1, from 0 to 1
+  std::vector<float> conditional; ///< height rows of width + 1, from 0 to 1
+  double power = 0;               ///< integral of luminance over the sphere, in W/(m^2) per unit of intensity
+};
+
+/// The density follows the largest luminance in each texel's 3x3 neighbourhood times the solid angle of the texel: wherever
+/// bilinear lookup is positive, so is the density. An all-black map gives empty arrays and power 0.
+[[nodiscard]] EnvironmentDensity environmentDensity(const Environment& environment);
+
+} // namespace isophote

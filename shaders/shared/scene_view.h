@@ -1,0 +1,36 @@
+// The addresses of everything a scene owns on the device.
+#ifndef ISOPHOTE_SHARED_SCENE_VIEW_H
+#define ISOPHOTE_SHARED_SCENE_VIEW_H
+
+#include "glsl_compat.h"
+#include "light_types.h"
+
+ISOPHOTE_SHARED_BEGIN
+
+struct SceneView {
+  Address nodes;       // BvhNode: top level first, root at 0
+  Address triangles;   // BvhTriangle
+  Address instances;   // InstanceRecord, in top-level leaf order
+  Address geometries;  // Geometry
+  Address indices;     // uint
+  Address normals;     // vec3
+  Address tangents;    // vec4
+  Address colors;      // vec4
+  Address uvs;         // vec2
+  Address materials;   // MaterialRecord
+  Address textureSlots; // TextureSlot
+  Address lightAlias;  // AliasEntry, one per light
+  Address emissiveTriangles; // EmissiveTriangle
+  Address punctualLights;    // PunctualLightRecord
+  Address ggxAlbedo;   // vec2 table of bsdf/ggx_albedo.glsl
+  EnvironmentRecord environment;
+  uint lightCount;
+  uint emissiveTriangleCount;
+  uint punctualLightCount;
+  uint instanceCount;
+  float emitterScale;  // PackedScene::emitterScale: the Film's fixed point follows it
+};
+
+ISOPHOTE_SHARED_END
+
+#endif
