@@ -200,7 +200,7 @@ TEST(Accumulate, T51ConstantsSurviveAHundredMillionSamples) {
   EXPECT_EQ(red * unit / count, 0.5);
   EXPECT_NEAR(green * unit / count, 0.1f, 1e-9);
   // 68.7 units: rounding to whole units would be off by 0.4%, stochastic rounding is not.
-  EXPECT_NEAR(blue * unit / count / 1e-9, 1.0, 1e-5);
+  EXPECT_NEAR(blue * unit / count / 1e-9, 1.0, 3e-5); // 4.6 standard deviations of the rounding of 2^20 samples
 }
 
 TEST(Queues, APushBeyondCapacityIsCountedAndWritesNothing) {
