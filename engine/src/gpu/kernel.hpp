@@ -42,15 +42,20 @@ public:
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] VkPipeline pipeline() const { return pipeline_; }
   [[nodiscard]] VkPipelineLayout layout() const { return layout_; }
+  [[nodiscard]] uint32_t pushBytes() const { return pushBytes_; }
   [[nodiscard]] uint32_t spirvBytes() const { return spirvBytes_; }
   [[nodiscard]] double compileMilliseconds() const { return compileMilliseconds_; }
   [[nodiscard]] bool usesTextures() const { return usesTextures_; } ///< the specialised module declares set 0
 
 private:
-  const Device* device_ = nullptr;
+  void build(const KernelSource& source, std::span<const SpecConstant> constants, VkDescriptorSetLayout textureLayout);
+  void destroy() noexcept;
+
+  Device::Impl* device_ = nullptr; // not the Device itself, which may move
   std::string name_;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
+  uint32_t pushBytes_ = 0;
   uint32_t spirvBytes_ = 0;
   double compileMilliseconds_ = 0;
   bool usesTextures_ = false;
