@@ -10,7 +10,7 @@ NonFiniteResult probe(const NonFiniteCase c) {
   const float x = uintBitsToFloat(c.bits);
   NonFiniteResult result;
   result.scalar = uint(isNonFinite(x));
-  result.components = uint(isNonFinite(vec3(x, 1, 1))) | uint(isNonFinite(vec3(1, x, 1))) << 1 |
-                      uint(isNonFinite(vec3(1, 1, x))) << 2;
+  result.components =
+      uint(isNonFinite(vec3(x, 1, 1))) | uint(isNonFinite(vec3(1, x, 1))) << 1 | uint(isNonFinite(vec3(1, 1, x))) << 2;
   return result;
 }

@@ -8,7 +8,8 @@ namespace isophote::test {
 namespace {
 
 struct SharedGpu {
-  SharedGpu() : instance({.validation = true}), device(std::in_place, instance, DeviceOptions{.selector = selector()}) {}
+  SharedGpu()
+      : instance({.validation = true}), device(std::in_place, instance, DeviceOptions{.selector = selector()}) {}
 
   static std::string selector() {
     const char* text = std::getenv("ISOPHOTE_TEST_DEVICE");

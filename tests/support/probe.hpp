@@ -14,9 +14,9 @@ namespace isophote::test {
 
 /// What a probe reads besides its inputs.
 struct ProbeEnvironment {
-  uint64_t extra = 0;                          ///< pc.extra
-  std::span<const gpu::SpecConstant> constants;///< beside the workgroup size, constant 0
-  const gpu::TextureArray* textures = nullptr; ///< set 0
+  uint64_t extra = 0;                           ///< pc.extra
+  std::span<const gpu::SpecConstant> constants; ///< beside the workgroup size, constant 0
+  const gpu::TextureArray* textures = nullptr;  ///< set 0
 };
 
 /// The untyped core of runProbe: `outputs` receives one result for each of `count` inputs, in order.

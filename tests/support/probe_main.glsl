@@ -1,5 +1,6 @@
-// The entry point of a GLSL probe: outputs[i] = probe(inputs[i]) for i < count. Include it after defining PROBE_INPUT and
-// PROBE_OUTPUT, then define `PROBE_OUTPUT probe(const PROBE_INPUT c)`. `pc.extra` is the caller's own buffer address.
+// The entry point of a GLSL probe: outputs[i] = probe(inputs[i]) for i < count. Include it after defining PROBE_INPUT
+// and PROBE_OUTPUT, then define `PROBE_OUTPUT probe(const PROBE_INPUT c)`. `pc.extra` is the caller's own buffer
+// address.
 #ifndef ISOPHOTE_SUPPORT_PROBE_MAIN_GLSL
 #define ISOPHOTE_SUPPORT_PROBE_MAIN_GLSL
 

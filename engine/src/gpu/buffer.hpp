@@ -57,7 +57,8 @@ void writeBuffer(const Device& device, const Buffer& destination, uint64_t offse
 void readBuffer(const Device& device, const Buffer& source, uint64_t offset, std::span<std::byte> bytes);
 
 /// A device-local buffer filled with `values` (null buffer where empty).
-template <class T> [[nodiscard]] Buffer uploadBuffer(const Device& device, const std::vector<T>& values, const char* name) {
+template <class T>
+[[nodiscard]] Buffer uploadBuffer(const Device& device, const std::vector<T>& values, const char* name) {
   Buffer buffer(device, values.size() * sizeof(T), Memory::Device, name);
   if (!values.empty()) writeBuffer(device, buffer, 0, std::as_bytes(std::span(values)));
   return buffer;

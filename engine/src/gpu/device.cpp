@@ -88,9 +88,9 @@ Device::Impl::~Impl() {
 void Device::Impl::nameObject(uint64_t object, VkObjectType type, const std::string& text) const {
   if (!setName) return;
   const VkDebugUtilsObjectNameInfoEXT named{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-                                           .objectType = type,
-                                           .objectHandle = object,
-                                           .pObjectName = text.c_str()};
+                                            .objectType = type,
+                                            .objectHandle = object,
+                                            .pObjectName = text.c_str()};
   setName(handle, &named); // a name that could not be kept changes nothing
 }
 
@@ -98,9 +98,8 @@ void Device::Impl::submitAndWait(VkCommandBuffer commands, VkFence fence, double
   if (lost) throw DeviceError(info.name + ": the device was lost earlier and takes no more work");
   const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                          .commandBuffer = commands};
-  const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                             .commandBufferInfoCount = 1,
-                             .pCommandBufferInfos = &buffer};
+  const VkSubmitInfo2 submit{
+      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer};
   VkResult result = vkQueueSubmit2(queue, 1, &submit, fence);
   if (result == VK_SUCCESS) {
     result = vkWaitForFences(handle, 1, &fence, VK_TRUE, static_cast<uint64_t>(timeoutSeconds * 1e9));

@@ -50,7 +50,8 @@ struct Device::Impl {
 
   /// Submits and waits.
   /// @param fence  unsignalled; is so again on return
-  /// @throws DeviceError on device loss, or when `timeoutSeconds` pass without an answer; the device then takes no more work
+  /// @throws DeviceError on device loss, or when `timeoutSeconds` pass without an answer; the device then takes no more
+  /// work
   void submitAndWait(VkCommandBuffer commands, VkFence fence, double timeoutSeconds);
 
   /// Records by `record(VkCommandBuffer)`, submits and waits. What the device wrote before is visible to the commands,

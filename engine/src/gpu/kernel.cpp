@@ -37,18 +37,16 @@ VkPipelineLayout createLayout(const Device::Impl& device, VkDescriptorSetLayout 
 }
 
 VkPipeline createPipeline(const Device::Impl& device, std::span<const uint32_t> spirv, VkPipelineLayout layout) {
-  const VkShaderModuleCreateInfo moduleInfo{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                            .codeSize = spirv.size_bytes(),
-                                            .pCode = spirv.data()};
+  const VkShaderModuleCreateInfo moduleInfo{
+      .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv.size_bytes(), .pCode = spirv.data()};
   VkShaderModule module = VK_NULL_HANDLE;
   check(vkCreateShaderModule(device.handle, &moduleInfo, nullptr, &module), "vkCreateShaderModule");
-  const VkComputePipelineCreateInfo info{
-      .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-      .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                .module = module,
-                .pName = "main"},
-      .layout = layout};
+  const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                   .module = module,
+                                                   .pName = "main"},
+                                         .layout = layout};
   VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult result = vkCreateComputePipelines(device.handle, device.cache, 1, &info, nullptr, &pipeline);
   vkDestroyShaderModule(device.handle, module, nullptr);

@@ -24,7 +24,8 @@ struct SpecConstant {
 
 /// Freezes `constants` into the module and removes what they make unreachable (spirv-opt: freeze, fold, dead branch and
 /// dead code elimination), so that a feature a scene lacks leaves neither code nor bindings behind.
-[[nodiscard]] std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span<const SpecConstant> constants);
+[[nodiscard]] std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv,
+                                                    std::span<const SpecConstant> constants);
 
 /// One compute pipeline with its layout. Move-only, named for debuggers.
 class Kernel {

@@ -13,11 +13,16 @@ namespace {
 
 const char* kindName(VkPhysicalDeviceType type) {
   switch (type) {
-  case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-  case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-  case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-  case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-  default: return "other";
+  case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+    return "discrete";
+  case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+    return "integrated";
+  case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+    return "virtual";
+  case VK_PHYSICAL_DEVICE_TYPE_CPU:
+    return "cpu";
+  default:
+    return "other";
   }
 }
 
@@ -143,7 +148,8 @@ bool matches(const DeviceInfo& info, const std::string& selector) {
 
 std::string refusal(const std::vector<PhysicalDevice>& devices, const std::string& selector) {
   std::string text = selector.empty() ? "no device can be used" : "no usable device matches '" + selector + "'";
-  if (devices.empty()) return text + ": the Vulkan loader found none; a software driver such as Mesa's lavapipe would do";
+  if (devices.empty())
+    return text + ": the Vulkan loader found none; a software driver such as Mesa's lavapipe would do";
   for (const auto& [handle, info, family] : devices) {
     text += "\n  " + std::to_string(info.index) + ": " + info.name + " (" + info.kind + "): ";
     if (!info.rejection.empty()) {

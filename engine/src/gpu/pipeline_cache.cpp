@@ -17,7 +17,8 @@ namespace {
 constexpr uint64_t kMaxFileBytes = 256ull << 20;
 
 std::filesystem::path cacheFolder() {
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/') return std::filesystem::path(xdg) / "isophote";
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/')
+    return std::filesystem::path(xdg) / "isophote";
   if (const char* home = std::getenv("HOME"); home && *home == '/') {
     return std::filesystem::path(home) / ".cache" / "isophote";
   }

@@ -47,9 +47,12 @@ bool sameContent(const TextureUpload& a, const TextureUpload& b) {
 
 VkSamplerAddressMode addressMode(Wrap wrap) {
   switch (wrap) {
-  case Wrap::ClampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  case Wrap::MirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-  case Wrap::Repeat: break;
+  case Wrap::ClampToEdge:
+    return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  case Wrap::MirroredRepeat:
+    return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+  case Wrap::Repeat:
+    break;
   }
   return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
@@ -83,9 +86,8 @@ void recordTransition(VkCommandBuffer commands, VkImage image, VkImageLayout fro
       .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
       .image = image,
       .subresourceRange = kWholeImage};
-  const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                    .imageMemoryBarrierCount = 1,
-                                    .pImageMemoryBarriers = &barrier};
+  const VkDependencyInfo dependency{
+      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
   vkCmdPipelineBarrier2(commands, &dependency);
 }
 
@@ -93,8 +95,7 @@ void recordTransition(VkCommandBuffer commands, VkImage image, VkImageLayout fro
 void uploadPixels(const Device& device, VkImage image, const TextureUpload& texture, uint32_t bytesPerPixel) {
   const ImageData& data = *texture.image;
   const uint64_t rowBytes = static_cast<uint64_t>(data.width) * bytesPerPixel;
-  const uint32_t bandRows =
-      static_cast<uint32_t>(std::clamp<uint64_t>(kStagingBytes / rowBytes, 1, data.height));
+  const uint32_t bandRows = static_cast<uint32_t>(std::clamp<uint64_t>(kStagingBytes / rowBytes, 1, data.height));
   const Buffer staging(device, rowBytes * bandRows, Memory::Host, "texture staging");
   for (uint32_t row = 0; row < data.height; row += bandRows) {
     const uint32_t rows = std::min(bandRows, data.height - row);
@@ -123,8 +124,8 @@ TextureArray::TextureArray(const Device& device, std::span<const TextureUpload> 
   const uint32_t limit = std::min({limits.maxPerStageDescriptorSampledImages, limits.maxPerStageDescriptorSamplers,
                                    limits.maxDescriptorSetSampledImages, limits.maxDescriptorSetSamplers});
   if (size_ > limit) {
-    throw LimitError("the scene has " + std::to_string(size_) + " textures; " + device_->info.name +
-                     " binds at most " + std::to_string(limit));
+    throw LimitError("the scene has " + std::to_string(size_) + " textures; " + device_->info.name + " binds at most " +
+                     std::to_string(limit));
   }
   try {
     create(device, textures);
@@ -200,9 +201,8 @@ void TextureArray::createSet(std::span<const VkDescriptorImageInfo> entries) {
                                              .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                              .descriptorCount = size_,
                                              .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
-  const VkDescriptorSetLayoutCreateInfo layoutInfo{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                   .bindingCount = 1,
-                                                   .pBindings = &binding};
+  const VkDescriptorSetLayoutCreateInfo layoutInfo{
+      .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 1, .pBindings = &binding};
   check(vkCreateDescriptorSetLayout(device_->handle, &layoutInfo, nullptr, &layout_), "vkCreateDescriptorSetLayout");
   device_->name(layout_, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, "textures");
   const VkDescriptorPoolSize poolSize{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .descriptorCount = size_};

@@ -16,7 +16,8 @@ struct TextureUpload {
   Wrap wrapS = Wrap::Repeat;
   Wrap wrapT = Wrap::Repeat;
   Filter filter = Filter::Linear;
-  bool srgb = false; ///< decode on read (8-bit images; 16-bit sRGB images are converted to linear float by the uploader)
+  bool srgb =
+      false; ///< decode on read (8-bit images; 16-bit sRGB images are converted to linear float by the uploader)
 };
 
 /// Combined image samplers at set 0, binding 0, index = position in the upload list. Images shared between entries

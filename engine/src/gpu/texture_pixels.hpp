@@ -16,7 +16,8 @@ struct TextureFormat {
   uint32_t bytesPerPixel = 0;
 };
 
-/// 8-bit images keep their bits; 16-bit linear ones too; 16-bit sRGB becomes linear float32, since Vulkan has no such format.
+/// 8-bit images keep their bits; 16-bit linear ones too; 16-bit sRGB becomes linear float32, since Vulkan has no such
+/// format.
 [[nodiscard]] TextureFormat textureFormat(const ImageData& image, bool srgb);
 
 /// Rows [firstRow, lastRow) in that format.
