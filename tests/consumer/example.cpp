@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   const isophote::Camera camera = scene.cameras.empty() ? isophote::framingCamera(scene, 1.0) : scene.cameras.front();
   const uint32_t size = static_cast<uint32_t>(std::atoi(argv[3]));
 
-  const isophote::Instance instance;
+  const isophote::VulkanInstance instance;
   const isophote::Device device(instance);
   const isophote::GpuScene gpuScene(device, scene);
   isophote::Film film(device, {.width = size, .height = size});
