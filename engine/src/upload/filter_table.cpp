@@ -1,5 +1,6 @@
 #include "upload/filter_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -85,8 +86,8 @@ std::vector<float> filterTable(PixelFilter filter) {
       (halfCdf(filter, middle) < target ? low : high) = middle;
     }
     const double x = i == 0 ? 0 : (i == last / 2 ? radius : 0.5 * (low + high));
-    table[last / 2 + i] = static_cast<float>(x);
     table[last / 2 - i] = static_cast<float>(-x);
+    table[last / 2 + i] = static_cast<float>(x);
   }
   return table;
 }
