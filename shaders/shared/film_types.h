@@ -1,4 +1,6 @@
-// The Film's exact sums.
+// The Film's exact sums. 64-bit fixed point: a value v is stored as round(v * scale) with scale a power of two, rounded
+// stochastically by a hash of the sample so that the expectation is exact at any magnitude. Integer addition commutes:
+// the sums do not depend on the order of samples.
 #ifndef ISOPHOTE_SHARED_FILM_TYPES_H
 #define ISOPHOTE_SHARED_FILM_TYPES_H
 
@@ -10,6 +12,48 @@ ISOPHOTE_SHARED_BEGIN
 // sequence. Replicates are scrambled independently, so the spread of their means estimates the error of the image also
 // where samples within a replicate are correlated (Owen-scrambled Sobol).
 ISOPHOTE_CONST uint kReplicateCount = 8u;
+
+struct ReplicateSum {
+  Int64 red;
+  Int64 green;
+  Int64 blue;
+  uint count;    // samples
+  uint hitCount; // samples whose camera ray met a surface
+};
+
+// Sums over the camera rays that met a surface, of samples with index below kAovSampleCount.
+struct AovSum {
+  Int64 albedo[3];
+  Int64 normal[3];
+  Int64 depth;       // along the view axis
+  Int64 position[3]; // relative to the scene's world origin
+  uint count;
+  uint unused;       // keeps 64-bit members aligned in arrays
+};
+ISOPHOTE_CONST uint kAovSampleCount = 64u;
+
+// Radiance is stored in units of 2^-kRadianceFractionBits * PackedScene::emitterScale. A sum holds 2^27 samples of
+// emitterScale, a single sample is clipped (and counted) at 2^26 emitterScale.
+ISOPHOTE_CONST uint kRadianceFractionBits = 36u;
+
+// One invocation's share of the image's error estimate.
+struct ErrorPartial {
+  float luminance;      // sum over pixels of the mean's luminance
+  float relativeSquare; // sum over pixels and channels of Var[mean] / (mean^2 + e^2)
+  float spread;         // sum over pixels of the variance of that pixel's term
+  uint pixelCount;      // pixels with at least two replicates
+};
+ISOPHOTE_CONST uint kErrorInvocations = 4096u;
+
+struct FilmArgs {
+  Address replicates; // ReplicateSum[pixelCount * kReplicateCount], pixel-major
+  Address target;     // ErrorPartial[kErrorInvocations] or packed RGBA8
+  uint pixelCount;
+  float valueScale;   // from fixed point to radiance
+  float epsilonSquare; // e^2 of the error metric
+  float exposure;     // factor
+  uint toneMap;
+};
 
 ISOPHOTE_SHARED_END
 

@@ -8,6 +8,7 @@ ISOPHOTE_SHARED_BEGIN
 
 ISOPHOTE_CONST uint kInvalidIndex = 0xffffffffu;
 ISOPHOTE_CONST uint kUvSetCount = 4u;
+ISOPHOTE_CONST float kRayInfinity = 3.402823466e38f; // tMax of a ray that nothing bounds
 // No BVH is deeper than this many inner nodes from root to leaf; the traversal stack holds both levels.
 ISOPHOTE_CONST uint kMaxBvhDepth = 32u;
 

@@ -17,12 +17,16 @@ using uvec2 = glm::uvec2;
 using uvec3 = glm::uvec3;
 using ivec2 = glm::ivec2;
 using Address = uint64_t; // of a device buffer; 0: absent
+using Int64 = int64_t;
+using Uint64 = uint64_t;
 } // namespace isophote::gpu
 #else
 #define ISOPHOTE_SHARED_BEGIN
 #define ISOPHOTE_SHARED_END
 #define ISOPHOTE_CONST const
 #define Address uint64_t
+#define Int64 int64_t
+#define Uint64 uint64_t
 #endif
 
 #endif

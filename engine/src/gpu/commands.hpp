@@ -19,9 +19,9 @@ struct KernelTime {
   double longestMilliseconds = 0;
 };
 
-/// One reusable command buffer with its fence and a timestamp pair per dispatch. Use: begin, dispatch..., submitAndWait.
-/// Every dispatch is wrapped in a debug-utils region and is followed by a full compute -> compute/indirect/transfer
-/// memory barrier: stages run one after another. Move-only.
+/// One reusable command buffer with its fence and a timestamp pair per dispatch. Use: begin, dispatch...,
+/// submitAndWait. Every dispatch is wrapped in a debug-utils region and is followed by a full compute ->
+/// compute/indirect/transfer memory barrier: stages run one after another. Move-only.
 class CommandStream {
 public:
   /// @param maxDispatches  most dispatches between begin and submit (sizes the query pool)
@@ -37,6 +37,8 @@ public:
   void dispatchIndirect(const Kernel& kernel, const void* push, uint32_t pushBytes, VkDescriptorSet textures,
                         const Buffer& arguments, uint64_t offset);
   void fill(const Buffer& buffer, uint32_t value);
+  /// Copies all of `source` over the start of `destination`.
+  void copy(const Buffer& source, const Buffer& destination);
   [[nodiscard]] VkCommandBuffer handle() const; ///< for what the viewer records itself
   /// Submits, waits with a timeout, adds the timestamps to times().
   /// @throws DeviceError on device loss or after `timeoutSeconds`

@@ -1,0 +1,136 @@
+// Exact sums -> the float channels of an image, in double on the host.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "isophote/film.hpp"
+#include "render/film_impl.hpp"
+
+namespace isophote {
+namespace {
+
+// 97.5% quantile of Student's t with 1 to 7 degrees of freedom.
+constexpr std::array<double, 8> kStudent975 = {0, 12.7062, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462};
+
+struct ChannelMean {
+  double mean = 0;
+  double standardError = std::numeric_limits<double>::infinity(); ///< unknown below two replicates
+  double halfWidth95 = std::numeric_limits<double>::infinity();
+};
+
+/// @param sums  the replicates' sums of one channel, @param counts  their sample counts
+ChannelMean channelMean(const std::array<int64_t, gpu::kReplicateCount>& sums,
+                        const std::array<uint32_t, gpu::kReplicateCount>& counts, double valuePerUnit) {
+  ChannelMean result;
+  double total = 0;
+  double count = 0;
+  uint32_t replicates = 0;
+  for (uint32_t r = 0; r < gpu::kReplicateCount; ++r) {
+    total += static_cast<double>(sums[r]);
+    count += counts[r];
+    if (counts[r] > 0) ++replicates;
+  }
+  if (count == 0) return {0, 0, 0};
+  result.mean = total / count * valuePerUnit;
+  if (replicates < 2) return result;
+  double squares = 0;
+  double variance = 0;
+  for (uint32_t r = 0; r < gpu::kReplicateCount; ++r) {
+    if (counts[r] == 0) continue;
+    const double share = counts[r] / count;
+    const double difference = static_cast<double>(sums[r]) / counts[r] * valuePerUnit - result.mean;
+    squares += share * share;
+    variance += share * share * difference * difference;
+  }
+  result.standardError = std::sqrt(variance / (1 - squares));
+  result.halfWidth95 = kStudent975[replicates - 1] * result.standardError;
+  return result;
+}
+
+std::vector<std::byte> readAll(const Device& device, const gpu::Buffer& buffer) {
+  std::vector<std::byte> bytes(buffer.bytes());
+  if (!bytes.empty()) gpu::readBuffer(device, buffer, 0, bytes);
+  return bytes;
+}
+
+void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Image& image) {
+  const uint32_t pixels = film.pixelCount();
+  const double perUnit = film.scale ? film.scale->radiancePerUnit : 0.0;
+  constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
+  for (const char* color : kColors) image.channels.push_back({color, std::vector<float>(pixels)});
+  image.channels.push_back({"A", std::vector<float>(pixels)});
+  for (const char* color : kColors) image.channels.push_back({std::string("stderr.") + color, std::vector<float>(pixels)});
+  for (const char* color : kColors) image.channels.push_back({std::string("ci95.") + color, std::vector<float>(pixels)});
+  image.channels.push_back({"sampleCount.Y", std::vector<float>(pixels)});
+  for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
+    const gpu::ReplicateSum* sum = sums + size_t{pixel} * gpu::kReplicateCount;
+    std::array<std::array<int64_t, gpu::kReplicateCount>, 3> values{};
+    std::array<uint32_t, gpu::kReplicateCount> counts{};
+    uint64_t samples = 0;
+    uint64_t hits = 0;
+    for (uint32_t r = 0; r < gpu::kReplicateCount; ++r) {
+      values[0][r] = sum[r].red;
+      values[1][r] = sum[r].green;
+      values[2][r] = sum[r].blue;
+      counts[r] = sum[r].count;
+      samples += sum[r].count;
+      hits += sum[r].hitCount;
+    }
+    for (size_t c = 0; c < 3; ++c) {
+      const ChannelMean mean = channelMean(values[c], counts, perUnit);
+      image.channels[c].values[pixel] = static_cast<float>(mean.mean);
+      image.channels[4 + c].values[pixel] = static_cast<float>(mean.standardError);
+      image.channels[7 + c].values[pixel] = static_cast<float>(mean.halfWidth95);
+    }
+    const double coverage = samples > 0 ? static_cast<double>(hits) / static_cast<double>(samples) : 0.0;
+    image.channels[3].values[pixel] = static_cast<float>(coverage);
+    image.channels[10].values[pixel] = static_cast<float>(samples);
+  }
+}
+
+void resolveAovs(const Film::Impl& film, const gpu::AovSum* sums, Image& image) {
+  const uint32_t pixels = film.pixelCount();
+  const size_t first = image.channels.size();
+  for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "position.X",
+                           "position.Y", "position.Z"}) {
+    image.channels.push_back({name, std::vector<float>(pixels)});
+  }
+  if (!film.scale) return;
+  const double unit = std::ldexp(1.0, -static_cast<int>(gpu::kRadianceFractionBits));
+  const double length = film.scale->lengthPerUnit;
+  for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
+    const gpu::AovSum& sum = sums[pixel];
+    if (sum.count == 0) continue;
+    const auto set = [&](size_t channel, double value) {
+      image.channels[first + channel].values[pixel] = static_cast<float>(value);
+    };
+    glm::dvec3 normal;
+    for (int c = 0; c < 3; ++c) {
+      set(static_cast<size_t>(c), static_cast<double>(sum.albedo[c]) * unit / sum.count);
+      normal[c] = static_cast<double>(sum.normal[c]);
+      set(static_cast<size_t>(7 + c),
+          static_cast<double>(sum.position[c]) * length / sum.count + film.scale->worldOrigin[c]);
+    }
+    if (glm::length(normal) > 0) normal = glm::normalize(normal);
+    for (int c = 0; c < 3; ++c) set(static_cast<size_t>(3 + c), normal[c]);
+    set(6, static_cast<double>(sum.depth) * length / sum.count);
+  }
+}
+
+} // namespace
+
+Image Film::resolve() const {
+  Image image;
+  image.width = impl_->cropWidth;
+  image.height = impl_->cropHeight;
+  const auto replicates = readAll(*impl_->device, impl_->replicates);
+  resolveRadiance(*impl_, reinterpret_cast<const gpu::ReplicateSum*>(replicates.data()), image);
+  if (impl_->aovs.bytes() != 0) {
+    const auto aovs = readAll(*impl_->device, impl_->aovs);
+    resolveAovs(*impl_, reinterpret_cast<const gpu::AovSum*>(aovs.data()), image);
+  }
+  return image;
+}
+
+} // namespace isophote

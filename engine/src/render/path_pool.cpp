@@ -1,0 +1,51 @@
+#include "render/path_pool.hpp"
+
+#include <numeric>
+
+namespace isophote {
+
+using gpu::Buffer;
+using gpu::Memory;
+
+PathPool::PathPool(const Device& device, uint32_t pathCount, bool withShadows)
+    : capacity(pathCount),
+      queues(device, uint64_t{pathCount} * gpu::kQueueCount * sizeof(uint32_t), Memory::Device, "pool.queues"),
+      rays(device, uint64_t{pathCount} * sizeof(gpu::RayState), Memory::Device, "pool.rays"),
+      hits(device, uint64_t{pathCount} * sizeof(gpu::HitState), Memory::Device, "pool.hits"),
+      paths(device, uint64_t{pathCount} * sizeof(gpu::PathState), Memory::Device, "pool.paths"),
+      shadows(device, withShadows ? uint64_t{pathCount} * sizeof(gpu::ShadowState) : 0, Memory::Device, "pool.shadows"),
+      wave(device, sizeof(gpu::WaveState), Memory::Device, "pool.wave"),
+      render(device, sizeof(gpu::RenderView), Memory::Device, "pool.render"),
+      filterTable(device, gpu::kFilterTableSize * sizeof(float), Memory::Device, "pool.filterTable"),
+      readback(device, sizeof(gpu::WaveState), Memory::Host, "pool.readback") {}
+
+void PathPool::reset(const Device& device) const {
+  std::vector<uint32_t> slots(capacity);
+  std::iota(slots.begin(), slots.end(), 0u);
+  gpu::writeBuffer(device, queues, uint64_t{gpu::kQueueFree} * capacity * sizeof(uint32_t),
+                   std::as_bytes(std::span(slots)));
+  gpu::WaveState state{};
+  state.counts[gpu::kQueueFree] = capacity;
+  for (auto& dispatch : state.dispatches) dispatch = {0, 1, 1};
+  gpu::writeBuffer(device, wave, 0, std::as_bytes(std::span(&state, 1)));
+}
+
+std::vector<BufferUse> PathPool::buffers() const {
+  std::vector<BufferUse> uses;
+  for (const Buffer* buffer : {&queues, &rays, &hits, &paths, &shadows, &wave, &render, &filterTable, &readback}) {
+    if (buffer->bytes() != 0) uses.push_back({buffer->name(), buffer->bytes()});
+  }
+  return uses;
+}
+
+uint64_t PathPool::bytes() const {
+  uint64_t sum = 0;
+  for (const BufferUse& use : buffers()) sum += use.bytes;
+  return sum;
+}
+
+uint64_t PathPool::bytesPerPath() const {
+  return (queues.bytes() + rays.bytes() + hits.bytes() + paths.bytes() + shadows.bytes()) / capacity;
+}
+
+} // namespace isophote

@@ -1,0 +1,35 @@
+// Device memory of the paths in flight: state by slot, and the queues of slot numbers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gpu/buffer.hpp"
+#include "isophote/gpu_scene.hpp"
+#include "shared/path_types.h"
+
+namespace isophote {
+
+struct PathPool {
+  uint32_t capacity = 0;
+  gpu::Buffer queues;
+  gpu::Buffer rays;
+  gpu::Buffer hits;
+  gpu::Buffer paths;
+  gpu::Buffer shadows; ///< null where no light is sampled
+  gpu::Buffer wave;    ///< WaveState
+  gpu::Buffer render;  ///< RenderView
+  gpu::Buffer filterTable;
+  gpu::Buffer readback; ///< WaveState on the host, copied at the end of each submit
+
+  PathPool(const Device& device, uint32_t paths, bool withShadows);
+
+  /// All slots free, counters zero.
+  void reset(const Device& device) const;
+  [[nodiscard]] std::vector<BufferUse> buffers() const;
+  [[nodiscard]] uint64_t bytes() const;
+  /// Of state and queue entries for one path.
+  [[nodiscard]] uint64_t bytesPerPath() const;
+};
+
+} // namespace isophote

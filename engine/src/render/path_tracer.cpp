@@ -1,0 +1,314 @@
+#include "isophote/path_tracer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "gpu/commands.hpp"
+#include "isophote/error.hpp"
+#include "render/film_impl.hpp"
+#include "render/path_pool.hpp"
+#include "render/wavefront_kernels.hpp"
+#include "upload/camera_record.hpp"
+#include "upload/filter_table.hpp"
+#include "upload/gpu_scene.hpp"
+
+namespace isophote {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// llvmpipe keeps a pool of this size in its caches; a GPU needs enough paths to fill its lanes several times.
+constexpr uint32_t kCpuPathPool = 1u << 15;
+constexpr uint32_t kGpuPathPool = 1u << 20;
+constexpr uint32_t kCpuWorkgroup = 64;
+constexpr uint32_t kGpuWorkgroup = 128;
+constexpr uint32_t kMaxWavesPerSubmit = 64;
+constexpr uint32_t kDispatchesPerWave = 10;
+// Watchdogs kill long dispatches, and Ctrl-C must be answered: above this the wave gets smaller.
+constexpr double kLongestDispatchMilliseconds = 100;
+constexpr uint32_t kFewestActivePaths = 256;
+
+uint32_t powerOfTwoBelow(uint32_t value, uint32_t limit) { return std::min(std::bit_floor(value), limit); }
+
+} // namespace
+
+struct PathTracer::Impl {
+  const Device& device;
+  const GpuScene& scene;
+  EstimatorSettings estimator;
+  ExecutionSettings execution;
+  uint32_t workgroupSize;
+  Clock::time_point constructed = Clock::now();
+
+  std::optional<WavefrontKernels> kernels;
+  FeatureSet kernelFeatures;
+  std::optional<PathPool> pool;
+  gpu::CommandStream commands;
+
+  Film* film = nullptr; ///< of the render under way
+  uint64_t workBegin = 0;
+  uint64_t workEnd = 0;
+  uint32_t wavesPerSubmit = 1;
+  uint32_t activeLimit = 0;
+  bool accepting = true; ///< new samples may start
+  gpu::WaveState last{}; ///< at the end of the last submit
+  RenderStatistics totals; ///< of finished renders; `last` holds the current one
+
+  Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
+      : device(d), scene(s), estimator(e), execution(x),
+        workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
+        commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
+
+  void makeKernels(const Camera& camera);
+  void writeRenderView(const Camera& camera, SampleRange range);
+  void dispatch(const gpu::Kernel& kernel, uint32_t prepare, uint32_t stage);
+  void recordPrepare(uint32_t part);
+  void recordWave();
+  void submit();
+  void adapt();
+  void retire();
+  [[nodiscard]] bool done() const {
+    const bool workLeft = accepting && last.nextWork < workEnd;
+    return !workLeft && last.counts[gpu::kQueueFree] == pool->capacity;
+  }
+  [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const;
+};
+
+// The camera's kind is a feature too, so kernels wait for the first camera; a later one of another kind remakes them.
+void PathTracer::Impl::makeKernels(const Camera& camera) {
+  FeatureSet features = FeatureSet::all();
+  if (execution.specialize) {
+    features = scene.features();
+    if (camera.kind == CameraKind::Orthographic) features.add(Feature::kHasOrthographic);
+  }
+  if (kernels && features == kernelFeatures) return;
+  const auto start = Clock::now();
+  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, scene.impl().textures.layout());
+  kernelFeatures = features;
+  totals.compileSeconds += secondsSince(start);
+  if (!pool) {
+    const uint32_t paths = execution.pathPoolSize != 0 ? execution.pathPoolSize
+                                                       : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
+    pool.emplace(device, paths, kernels->intersectShadow.has_value());
+    gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filterTable(estimator.filter))));
+    activeLimit = paths;
+  }
+}
+
+void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) {
+  const GpuScene::Impl& gpuScene = scene.impl();
+  Film::Impl& target = film->impl();
+  // Lengths: a power of two near the scene's radius, with room for points 2^33 radii away.
+  const double radius = std::exp2(std::ceil(std::log2(std::max(gpuScene.worldRadius, 1e-30))));
+  const FilmScale scale = {.radiancePerUnit = gpuScene.emitterScale * std::ldexp(1.0, -static_cast<int>(gpu::kRadianceFractionBits)),
+                           .lengthPerUnit = radius * std::ldexp(1.0, -30),
+                           .worldOrigin = gpuScene.worldOrigin};
+  if (target.scale && !(*target.scale == scale)) throw Error("the film holds samples of another scene: clear it first");
+  target.scale = scale;
+
+  const PixelRect& crop = target.options.crop;
+  gpu::RenderView view{};
+  view.camera = cameraRecord(camera, target.options.width, target.options.height, gpuScene.worldOrigin);
+  view.filterTable = pool->filterTable.address();
+  view.replicates = target.replicates.address();
+  view.aovs = target.aovs.address();
+  view.imageSize = {target.options.width, target.options.height};
+  view.cropOrigin = {crop.x0, crop.y0};
+  view.cropSize = {target.cropWidth, target.cropHeight};
+  view.tileSize = {powerOfTwoBelow(target.cropWidth, 8), powerOfTwoBelow(target.cropHeight, 8)};
+  view.tileColumns = (target.cropWidth + view.tileSize.x - 1) / view.tileSize.x;
+  const uint32_t tileRows = (target.cropHeight + view.tileSize.y - 1) / view.tileSize.y;
+  view.paddedPixelCount = view.tileColumns * view.tileSize.x * tileRows * view.tileSize.y;
+  view.firstSample = range.first;
+  view.maxDepth = estimator.maxDepth;
+  view.seed = {static_cast<uint32_t>(estimator.seed), static_cast<uint32_t>(estimator.seed >> 32)};
+  view.radianceScale = static_cast<float>(1.0 / scale.radiancePerUnit);
+  view.distanceScale = static_cast<float>(1.0 / scale.lengthPerUnit);
+  view.workEnd = uint64_t{view.paddedPixelCount} * (range.last - range.first);
+  workEnd = view.workEnd;
+  gpu::writeBuffer(device, pool->render, 0, std::as_bytes(std::span(&view, 1)));
+}
+
+gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
+  return {.scene = scene.impl().view.address(),
+          .render = pool->render.address(),
+          .wave = pool->wave.address(),
+          .queues = pool->queues.address(),
+          .rays = pool->rays.address(),
+          .hits = pool->hits.address(),
+          .paths = pool->paths.address(),
+          .shadows = pool->shadows.address(),
+          .capacity = pool->capacity,
+          .activeLimit = accepting ? activeLimit : 0,
+          .prepare = prepare,
+          .workgroupSize = workgroupSize};
+}
+
+void PathTracer::Impl::recordPrepare(uint32_t part) {
+  const gpu::KernelArgs args = arguments(part);
+  commands.dispatch(kernels->prepare, &args, sizeof(args), VK_NULL_HANDLE, 1);
+}
+
+void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t prepare, uint32_t stage) {
+  const gpu::KernelArgs args = arguments(prepare);
+  const uint64_t offset = offsetof(gpu::WaveState, dispatches) + stage * sizeof(gpu::DispatchSize);
+  commands.dispatchIndirect(kernel, &args, sizeof(args), scene.impl().textures.set(), pool->wave, offset);
+}
+
+void PathTracer::Impl::recordWave() {
+  recordPrepare(gpu::kPrepareRegenerate);
+  dispatch(kernels->regenerate, 0, gpu::kStageRegenerate);
+  recordPrepare(gpu::kPrepareIntersect);
+  dispatch(kernels->intersectClosest, 0, gpu::kStageIntersectClosest);
+  recordPrepare(gpu::kPrepareShade);
+  if (kernels->shadeEscaped) dispatch(*kernels->shadeEscaped, 0, gpu::kStageShadeEscaped);
+  dispatch(kernels->shadeSurface, 0, gpu::kStageShadeSurface);
+  recordPrepare(gpu::kPrepareShadow);
+  if (kernels->intersectShadow) dispatch(*kernels->intersectShadow, 0, gpu::kStageIntersectShadow);
+  dispatch(kernels->accumulate, 0, gpu::kStageAccumulate);
+}
+
+void PathTracer::Impl::submit() {
+  commands.begin();
+  for (uint32_t wave = 0; wave < wavesPerSubmit; ++wave) recordWave();
+  commands.copy(pool->wave, pool->readback);
+  commands.submitAndWait();
+  std::memcpy(&last, pool->readback.mapped(), sizeof(last));
+}
+
+// Work per submit follows the measured times; it never changes the image.
+void PathTracer::Impl::adapt() {
+  const double ratio = execution.submitMilliseconds / std::max(commands.lastSubmitMilliseconds(), 0.1);
+  const double waves = wavesPerSubmit * std::clamp(ratio, 0.25, 2.0);
+  wavesPerSubmit = static_cast<uint32_t>(std::clamp(std::round(waves), 1.0, double{kMaxWavesPerSubmit}));
+  const double longest = commands.lastLongestDispatchMilliseconds();
+  const double limit = std::min(kLongestDispatchMilliseconds, execution.submitMilliseconds);
+  if (longest > limit) {
+    const double smaller = activeLimit * std::max(0.25, limit / longest * 0.8);
+    activeLimit = std::max(kFewestActivePaths, static_cast<uint32_t>(smaller));
+  } else if (longest < 0.5 * limit && activeLimit < pool->capacity) {
+    activeLimit = std::min(pool->capacity, activeLimit + activeLimit / 4);
+  }
+}
+
+// Moves the finished render's counters into the totals.
+void PathTracer::Impl::retire() {
+  totals.primaryRays += last.primaryRays;
+  totals.bounceRays += last.bounceRays;
+  totals.shadowRays += last.shadowRays;
+  totals.status.queueOverflow += last.status[gpu::kStatusQueueOverflow];
+  totals.status.stackOverflow += last.status[gpu::kStatusStackOverflow];
+  totals.status.nonFinite += last.status[gpu::kStatusNonFinite];
+  totals.status.negative += last.status[gpu::kStatusNegative];
+  totals.status.clipped += last.status[gpu::kStatusClipped];
+  totals.status.outOfBounds += last.status[gpu::kStatusOutOfBounds];
+  last = {};
+  film = nullptr;
+}
+
+PathTracer::PathTracer(const Device& device, const GpuScene& scene, const EstimatorSettings& estimator,
+                       const ExecutionSettings& execution) {
+  if (estimator.maxDepth == kUnlimitedDepth && !estimator.russianRoulette) {
+    throw UsageError("unlimited depth needs Russian roulette: without it a path in a closed lossless scene never ends");
+  }
+  impl_ = std::make_unique<Impl>(device, scene, estimator, execution);
+}
+
+PathTracer::PathTracer(PathTracer&&) noexcept = default;
+PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
+PathTracer::~PathTracer() = default;
+
+void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
+  if (impl_->film != nullptr) throw Error("a render is under way: finish or cancel it first");
+  if (range.last < range.first) throw UsageError("the sample range ends before it begins");
+  impl_->makeKernels(camera);
+  impl_->film = &film;
+  impl_->accepting = true;
+  impl_->writeRenderView(camera, range);
+  impl_->pool->reset(impl_->device);
+  impl_->last = {};
+  impl_->last.counts[gpu::kQueueFree] = impl_->pool->capacity;
+}
+
+bool PathTracer::advance() {
+  if (impl_->film == nullptr) return false;
+  if (!impl_->done()) {
+    const auto start = Clock::now();
+    impl_->submit();
+    impl_->adapt();
+    impl_->totals.renderSeconds += secondsSince(start);
+    if (impl_->totals.firstPixelSeconds == 0) impl_->totals.firstPixelSeconds = secondsSince(impl_->constructed);
+  }
+  if (!impl_->done()) return true;
+  impl_->retire();
+  return false;
+}
+
+void PathTracer::finish() {
+  impl_->accepting = false;
+  while (advance()) {
+  }
+}
+
+void PathTracer::cancel() {
+  if (impl_->film != nullptr) impl_->retire();
+}
+
+bool PathTracer::render(const Camera& camera, Film& film, SampleRange range,
+                        const std::function<bool(const Progress&)>& onProgress) {
+  const auto start = Clock::now();
+  begin(camera, film, range);
+  const double work = static_cast<double>(std::max<uint64_t>(impl_->workEnd, 1));
+  bool completed = true;
+  while (advance()) {
+    if (!onProgress || !impl_->accepting) continue;
+    const gpu::WaveState& state = impl_->last;
+    const double started = static_cast<double>(state.nextWork);
+    const double inFlight = impl_->pool->capacity - state.counts[gpu::kQueueFree];
+    if (!onProgress({.fraction = std::clamp((started - inFlight) / work, 0.0, 1.0),
+                     .seconds = secondsSince(start),
+                     .rays = state.primaryRays + state.bounceRays + state.shadowRays})) {
+      completed = false;
+      impl_->accepting = false;
+    }
+  }
+  return completed;
+}
+
+RenderStatistics PathTracer::statistics() const {
+  RenderStatistics statistics = impl_->totals;
+  statistics.primaryRays += impl_->last.primaryRays;
+  statistics.bounceRays += impl_->last.bounceRays;
+  statistics.shadowRays += impl_->last.shadowRays;
+  statistics.workgroupSize = impl_->workgroupSize;
+  if (!impl_->kernels) return statistics;
+  statistics.queueBytes = impl_->pool->bytes();
+  statistics.bytesPerPath = impl_->pool->bytesPerPath();
+  statistics.pathPoolSize = impl_->pool->capacity;
+  statistics.buffers = impl_->pool->buffers();
+  for (const gpu::Kernel* kernel : impl_->kernels->all()) {
+    KernelStatistics entry{.name = kernel->name(),
+                           .compileMilliseconds = kernel->compileMilliseconds(),
+                           .spirvBytes = kernel->spirvBytes()};
+    for (const gpu::KernelTime& time : impl_->commands.times()) {
+      if (time.name != entry.name) continue;
+      entry.dispatches = time.dispatches;
+      entry.milliseconds = time.milliseconds;
+      entry.longestMilliseconds = time.longestMilliseconds;
+    }
+    statistics.kernels.push_back(entry);
+    statistics.textureBinding = statistics.textureBinding || kernel->usesTextures();
+  }
+  return statistics;
+}
+
+FeatureSet PathTracer::features() const { return impl_->kernels ? impl_->kernelFeatures : impl_->scene.features(); }
+
+} // namespace isophote

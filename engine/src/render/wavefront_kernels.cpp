@@ -1,0 +1,66 @@
+#include "render/wavefront_kernels.hpp"
+
+#include "isophote_kernels.hpp"
+#include "shared/path_types.h"
+
+namespace isophote {
+namespace {
+
+// Ids of shared/settings.inc.
+enum Setting : uint32_t {
+#define ISOPHOTE_SETTING(id, constant, fallback) constant = id,
+#include "shared/settings.inc"
+#undef ISOPHOTE_SETTING
+};
+
+std::vector<gpu::SpecConstant> specialization(const FeatureSet& features, const EstimatorSettings& settings,
+                                              uint32_t workgroupSize) {
+  std::vector<gpu::SpecConstant> constants = {{0, workgroupSize}};
+  for (const FeatureDescription& description : allFeatures()) {
+    constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
+  }
+  constants.push_back({kSampler, static_cast<uint32_t>(settings.sampler)});
+  constants.push_back({kLightSampling, static_cast<uint32_t>(settings.lightSampling)});
+  constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
+  constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
+  return constants;
+}
+
+// Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
+bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings) {
+  if (settings.maxDepth == 0) return false;
+  if (features.has(Feature::kHasPunctualLights)) return true;
+  return settings.lightSampling != LightSampling::BsdfOnly &&
+         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasEnvironment));
+}
+
+} // namespace
+
+std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
+  std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
+  if (shadeEscaped) kernels.push_back(&*shadeEscaped);
+  kernels.push_back(&shadeSurface);
+  if (intersectShadow) kernels.push_back(&*intersectShadow);
+  kernels.push_back(&accumulate);
+  return kernels;
+}
+
+WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
+                                      uint32_t workgroupSize, VkDescriptorSetLayout textureLayout) {
+  const auto constants = specialization(features, settings, workgroupSize);
+  const auto make = [&](const char* name) {
+    return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
+  };
+  WavefrontKernels kernels{.prepare = make("prepare"),
+                           .regenerate = make("regenerate"),
+                           .intersectClosest = make("intersect_closest"),
+                           .shadeEscaped = std::nullopt,
+                           .shadeSurface = make("shade_surface"),
+                           .intersectShadow = std::nullopt,
+                           .accumulate = make("accumulate")};
+  if (features.has(Feature::kHasEnvironment)) kernels.shadeEscaped = make("shade_escaped");
+  if (samplesLights(features, settings)) kernels.intersectShadow = make("intersect_shadow");
+  return kernels;
+}
+
+} // namespace isophote

@@ -1,0 +1,31 @@
+// The pipelines of one feature set: those of absent features do not exist.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gpu/kernel.hpp"
+#include "isophote/features.hpp"
+#include "isophote/settings.hpp"
+
+namespace isophote {
+
+struct WavefrontKernels {
+  gpu::Kernel prepare;
+  gpu::Kernel regenerate;
+  gpu::Kernel intersectClosest;
+  std::optional<gpu::Kernel> shadeEscaped;    ///< with an environment
+  gpu::Kernel shadeSurface;
+  std::optional<gpu::Kernel> intersectShadow; ///< with a light to sample
+  gpu::Kernel accumulate;
+
+  /// Those that exist, in the order of a wave.
+  [[nodiscard]] std::vector<const gpu::Kernel*> all() const;
+};
+
+/// @param textureLayout  of the scene's texture array, null where it has none
+[[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
+                                                    const EstimatorSettings& settings, uint32_t workgroupSize,
+                                                    VkDescriptorSetLayout textureLayout);
+
+} // namespace isophote

@@ -1,0 +1,28 @@
+// RayQueue -> surface queue | escaped queue (or straight to finished where nothing shines from outside).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "geometry/traverse.glsl"
+#include "kernels/wavefront.glsl"
+
+void main() {
+  uint slot;
+  if (!takeSlot(kQueueRay, itemIndex(), slot)) return;
+  const RayState ray = RayRef(pc.rays).items[slot];
+  PathRef paths = PathRef(pc.paths);
+  AlphaKey key = AlphaKey(0u, 0u, uvec2(0u), 0u);
+  if (kHasAlpha) {
+    key = AlphaKey(paths.items[slot].pixel, paths.items[slot].sampleIndex, RenderRef(pc.render).view.seed,
+                   paths.items[slot].depth);
+  }
+  const RayHit hit = traceClosest(SceneRef(pc.scene), ray.origin, ray.direction, ray.tMin, ray.tMax, key);
+  if (hit.stackOverflow) countStatus(kStatusStackOverflow);
+  if (hit.found) {
+    HitRef(pc.hits).items[slot] = HitState(hit.instance, hit.triangle, hit.barycentrics);
+    pushSlot(kQueueSurface, slot);
+  } else if (kHasEnvironment) {
+    pushSlot(kQueueEscaped, slot);
+  } else {
+    pushSlot(kQueueFinished, slot);
+  }
+}

@@ -1,0 +1,44 @@
+// Free path slots take their next (pixel, sample) and a camera ray.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "camera/camera.glsl"
+#include "camera/pixel_filter.glsl"
+#include "kernels/wavefront.glsl"
+#include "sampling/sampler.glsl"
+
+// The crop pixel of a padded work index: tiles row by row, pixels within a tile row by row.
+uvec2 tilePixel(const RenderRef render, const uint padded) {
+  const uvec2 tile = render.view.tileSize;
+  const uint tileArea = tile.x * tile.y;
+  const uint tileIndex = padded / tileArea;
+  const uint inTile = padded % tileArea;
+  return uvec2(tileIndex % render.view.tileColumns, tileIndex / render.view.tileColumns) * tile +
+         uvec2(inTile % tile.x, inTile / tile.x);
+}
+
+void main() {
+  WaveRef wave = WaveRef(pc.wave);
+  RenderRef render = RenderRef(pc.render);
+  const uint item = itemIndex();
+  if (item >= wave.state.regenerateCount) return;
+  const uint slot = queueSlots(kQueueFree).slots[wave.state.counts[kQueueFree] + item];
+
+  const uint offset = wave.state.regeneratePixel + item;
+  const uint sampleIndex = render.view.firstSample + wave.state.regenerateSample + offset / render.view.paddedPixelCount;
+  const uvec2 cropPixel = tilePixel(render, offset % render.view.paddedPixelCount);
+  if (any(greaterThanEqual(cropPixel, render.view.cropSize))) {
+    // Padding of a tile at the border. The freed slot waits in the finished queue, because the free queue is being read.
+    PathRef(pc.paths).items[slot].sampleIndex = kNoSample;
+    pushSlot(kQueueFinished, slot);
+    return;
+  }
+  const uvec2 pixel = render.view.cropOrigin + cropPixel;
+  const SampleKey key = SampleKey(pixel.x | pixel.y << 16u, sampleIndex, render.view.seed);
+  const vec2 offsetInPixel = sampleFilter(FloatRef(render.view.filterTable), sample2d(key, 0u));
+  const CameraRay ray = cameraRay(render.view.camera, vec2(pixel) + 0.5 + offsetInPixel, vec2(render.view.imageSize));
+
+  RayRef(pc.rays).items[slot] = RayState(ray.origin, ray.tMin, ray.direction, ray.tMax);
+  PathRef(pc.paths).items[slot] = PathState(vec3(1.0), 0.0, vec3(0.0), 0u, key.pixel, sampleIndex, 0u);
+  pushSlot(kQueueRay, slot);
+}

@@ -1,0 +1,135 @@
+// What passes between the stages of the wavefront. Each path owns one slot of the pool; queues hold slot numbers.
+#ifndef ISOPHOTE_SHARED_PATH_TYPES_H
+#define ISOPHOTE_SHARED_PATH_TYPES_H
+
+#include "camera_types.h"
+#include "film_types.h"
+#include "glsl_compat.h"
+
+ISOPHOTE_SHARED_BEGIN
+
+struct RayState {
+  vec3 origin;
+  float tMin;
+  vec3 direction; // unit
+  float tMax;
+};
+
+struct HitState {
+  uint instance;
+  uint triangle;
+  vec2 barycentrics;
+};
+
+struct PathState {
+  vec3 beta;           // throughput, 1/pdf included
+  float pdfSolidAngle; // of the last BSDF sample; 0: camera ray or delta bounce, which no light sample can match
+  vec3 radiance;
+  uint depth;          // scattering events so far
+  uint pixel;          // x | y << 16 in the full image
+  uint sampleIndex;
+  uint hit;            // 1: the camera ray met a surface
+};
+
+// PathState.sampleIndex of a slot that holds no sample: padding of a border tile.
+ISOPHOTE_CONST uint kNoSample = 0xffffffffu;
+
+struct ShadowState {
+  vec3 origin;
+  float tMax;
+  vec3 direction;
+  float unused;
+  vec3 contribution; // complete: beta, BSDF, light, MIS weight and 1/pdf
+};
+
+ISOPHOTE_CONST uint kQueueFree = 0u;
+ISOPHOTE_CONST uint kQueueRay = 1u;
+ISOPHOTE_CONST uint kQueueSurface = 2u;
+ISOPHOTE_CONST uint kQueueEscaped = 3u;
+ISOPHOTE_CONST uint kQueueShadow = 4u;
+ISOPHOTE_CONST uint kQueueFinished = 5u;
+ISOPHOTE_CONST uint kQueueCount = 6u;
+
+// Where each stage finds its indirect dispatch size in WaveState.dispatches.
+ISOPHOTE_CONST uint kStageRegenerate = 0u;
+ISOPHOTE_CONST uint kStageIntersectClosest = 1u;
+ISOPHOTE_CONST uint kStageShadeEscaped = 2u;
+ISOPHOTE_CONST uint kStageShadeSurface = 3u;
+ISOPHOTE_CONST uint kStageIntersectShadow = 4u;
+ISOPHOTE_CONST uint kStageAccumulate = 5u;
+ISOPHOTE_CONST uint kStageCount = 6u;
+
+// Which part of the bookkeeping `prepare` does.
+ISOPHOTE_CONST uint kPrepareRegenerate = 0u;
+ISOPHOTE_CONST uint kPrepareIntersect = 1u;
+ISOPHOTE_CONST uint kPrepareShade = 2u;
+ISOPHOTE_CONST uint kPrepareShadow = 3u;
+
+ISOPHOTE_CONST uint kStatusQueueOverflow = 0u;
+ISOPHOTE_CONST uint kStatusStackOverflow = 1u;
+ISOPHOTE_CONST uint kStatusNonFinite = 2u;
+ISOPHOTE_CONST uint kStatusNegative = 3u;
+ISOPHOTE_CONST uint kStatusClipped = 4u;
+ISOPHOTE_CONST uint kStatusOutOfBounds = 5u;
+ISOPHOTE_CONST uint kStatusCount = 6u;
+
+struct DispatchSize {
+  uint x;
+  uint y;
+  uint z;
+};
+
+// The wavefront's only shared mutable state. Counts are written by queue pushes (atomic) and by `prepare` (alone).
+struct WaveState {
+  Uint64 nextWork;        // work items handed out; item w is sample w / paddedPixelCount of pixel w % paddedPixelCount
+  Uint64 primaryRays;
+  Uint64 bounceRays;
+  Uint64 shadowRays;
+  DispatchSize dispatches[6]; // kStageCount
+  uint counts[6];         // kQueueCount
+  uint status[6];         // kStatusCount
+  uint regenerateCount;   // of this wave
+  uint regenerateSample;  // sample index, relative to firstSample, and padded pixel of its first work item
+  uint regeneratePixel;
+  uint unused;
+};
+
+// Fixed for one call of render.
+struct RenderView {
+  CameraRecord camera;
+  Address filterTable; // float[kFilterTableSize]
+  Address replicates;  // ReplicateSum[crop pixels * kReplicateCount]
+  Address aovs;        // AovSum[crop pixels] or 0
+  Uint64 workEnd;
+  uvec2 imageSize;
+  uvec2 cropOrigin;
+  uvec2 cropSize;
+  uvec2 tileSize;      // powers of two; work walks the crop tile by tile
+  uint tileColumns;
+  uint paddedPixelCount;
+  uint firstSample;
+  uint maxDepth;
+  uvec2 seed;
+  float radianceScale; // fixed point per unit of radiance
+  float distanceScale; // fixed point per unit of length
+};
+
+// The push constant of every wavefront kernel.
+struct KernelArgs {
+  Address scene;   // SceneView
+  Address render;  // RenderView
+  Address wave;    // WaveState
+  Address queues;  // uint[kQueueCount][capacity]
+  Address rays;    // RayState[capacity], as the next three indexed by slot
+  Address hits;
+  Address paths;
+  Address shadows;
+  uint capacity;
+  uint activeLimit; // paths in flight, 0: no new path starts
+  uint prepare;     // kPrepare*
+  uint workgroupSize;
+};
+
+ISOPHOTE_SHARED_END
+
+#endif
