@@ -5,8 +5,8 @@
 
 namespace isophote::oracle {
 
-/// Reflectance of unpolarized light at a smooth boundary between dielectrics: the mean of the squared s and p amplitudes.
-/// Source: Born and Wolf 1999, "Principles of Optics", section 1.5.2, eq. 21.
+/// Reflectance of unpolarized light at a smooth boundary between dielectrics: the mean of the squared s and p
+/// amplitudes. Source: Born and Wolf 1999, "Principles of Optics", section 1.5.2, eq. 21.
 /// @param cosI cosine on the incident side, in [0, 1]
 /// @param eta  index behind the boundary over the index in front, > 0
 [[nodiscard]] double fresnelDielectric(double cosI, double eta);

@@ -117,7 +117,8 @@ glm::dvec2 quadratureAlbedo(double mu, double alpha, int count) {
   const glm::dvec3 wo(std::sqrt(std::max(0.0, 1 - mu * mu)), 0, mu);
   glm::dvec2 sum(0);
   for (int i = 0; i < count; ++i) {
-    const double t = (i + 0.5) / count; // u.x = 1 - t^2 puts nodes where normals lie flat and wi sinks below the horizon
+    const double t =
+        (i + 0.5) / count; // u.x = 1 - t^2 puts nodes where normals lie flat and wi sinks below the horizon
     for (int j = 0; j < count; ++j) {
       const glm::dvec2 u(1 - t * t, 0.25 + 0.5 * (j + 0.5) / count); // mirror symmetry: half of all azimuths suffice
       const glm::dvec3 wm = sampleVisibleNormal(wo, glm::dvec2(alpha), u);

@@ -1,4 +1,5 @@
-// Anisotropic GGX in double precision, from the papers' formulas. Directions are unit, in the local shading frame, z up.
+// Anisotropic GGX in double precision, from the papers' formulas. Directions are unit, in the local shading frame, z
+// up.
 #pragma once
 
 #include <glm/glm.hpp>
