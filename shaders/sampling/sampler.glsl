@@ -23,9 +23,9 @@ struct SampleKey {
 /// @param pair  below 2^29
 uvec2 sampleBits2d(const SampleKey key, uint pair) {
   if (kSampler == kSamplerIndependent) {
-    uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
-    state.x ^= pair;
-    return pcg4d(state).xy;
+    // Alpha tests hash the same state with four indices; none of those is ~0.
+    const uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
+    return pcg4d(state ^ uvec4(pair, uvec3(0xffffffffu))).xy;
   }
   const uint replicate = key.sampleIndex % kReplicateCount;
   const uvec4 scramble = pcg4d(uvec4(key.pixel, pair * kReplicateCount + replicate, key.seed));
@@ -34,14 +34,5 @@ uvec2 sampleBits2d(const SampleKey key, uint pair) {
 
 /// The two numbers of pair `pair`, in [0, 1), multiples of 2^-24.
 vec2 sample2d(const SampleKey key, uint pair) { return unitFloat(sampleBits2d(key, pair)); }
-
-/// A number for an event that has no fixed place on the path, such as the alpha test of one candidate hit: independent
-/// of every pair and, for different `event`, of each other.
-///
-/// @return in [0, 1), a multiple of 2^-24
-float sampleEvent(const SampleKey key, uvec4 event) {
-  const uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
-  return unitFloat(pcg4d(state ^ pcg4d(event)).x);
-}
 
 #endif
