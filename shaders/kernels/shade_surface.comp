@@ -94,8 +94,8 @@ vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState r
 void main() {
   uint slot;
   if (!takeSlot(kQueueSurface, itemIndex(), slot)) return;
-  const SceneRef scene = SceneRef(pc.scene);
-  const RenderRef render = RenderRef(pc.render);
+  SceneRef scene = SceneRef(pc.scene);
+  RenderRef render = RenderRef(pc.render);
   const RayState ray = RayRef(pc.rays).items[slot];
   const HitState hit = HitRef(pc.hits).items[slot];
   PathState path = PathRef(pc.paths).items[slot];
