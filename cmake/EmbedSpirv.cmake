@@ -14,6 +14,7 @@ const isophote::gpu::KernelSource& kernelSource(std::string_view name);
 set(cpp ${OUT}/${TARGET}_kernels.cpp)
 file(WRITE ${cpp} "#include \"${TARGET}_kernels.hpp\"
 
+#include <array>
 #include <string>
 
 #include \"isophote/error.hpp\"
@@ -26,12 +27,13 @@ foreach(file IN LISTS BINARIES)
   string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1,\n" words "${hex}")
   file(APPEND ${cpp} "const uint32_t ${name}Words[] = {\n${words}};\n")
 endforeach()
-file(APPEND ${cpp} "const isophote::gpu::KernelSource kSources[] = {\n")
+list(LENGTH BINARIES count)
+file(APPEND ${cpp} "const std::array<isophote::gpu::KernelSource, ${count}> kSources{{\n")
 foreach(file IN LISTS BINARIES)
   get_filename_component(name ${file} NAME_WE)
   file(APPEND ${cpp} "    {\"${name}\", ${name}Words},\n")
 endforeach()
-file(APPEND ${cpp} "};
+file(APPEND ${cpp} "}};
 } // namespace
 
 namespace ${TARGET}_kernels {

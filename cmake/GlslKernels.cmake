@@ -3,7 +3,7 @@
 function(isophote_embed_kernels target)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
   file(MAKE_DIRECTORY ${out})
-  set(flags -V --target-env vulkan1.3 --quiet -I${PROJECT_SOURCE_DIR}/shaders -I${CMAKE_CURRENT_SOURCE_DIR})
+  set(flags -V --target-env vulkan1.3 --quiet -I${PROJECT_SOURCE_DIR}/shaders -I${PROJECT_SOURCE_DIR}/tests)
   if(ISOPHOTE_CHECK_BOUNDS)
     list(APPEND flags -DISOPHOTE_CHECK_BOUNDS=1)
   endif()

@@ -11,7 +11,7 @@ void addAovs(const RenderRef render, const PathState path, const vec3 albedo, co
   if (render.view.aovs == 0ul || path.sampleIndex >= kAovSampleCount) return;
   const uvec2 cropPixel = uvec2(path.pixel & 0xffffu, path.pixel >> 16u) - render.view.cropOrigin;
   const uint pixel = cropPixel.y * render.view.cropSize.x + cropPixel.x;
-  const AovRef aovs = AovRef(render.view.aovs);
+  AovRef aovs = AovRef(render.view.aovs);
   const uint dither = pcg4d(uvec4(path.pixel, path.sampleIndex, render.view.seed)).w;
   const float unit = float(1ul << kRadianceFractionBits);
   for (uint c = 0u; c < 3u; ++c) {

@@ -8,7 +8,7 @@
 #include "sampling/hash.glsl"
 
 void addSample(const PathState path) {
-  const RenderRef render = RenderRef(pc.render);
+  RenderRef render = RenderRef(pc.render);
   const uvec2 cropPixel = uvec2(path.pixel & 0xffffu, path.pixel >> 16u) - render.view.cropOrigin;
   const uint pixel = cropPixel.y * render.view.cropSize.x + cropPixel.x;
   const uint index = pixel * kReplicateCount + path.sampleIndex % kReplicateCount;
@@ -24,7 +24,7 @@ void addSample(const PathState path) {
   const vec3 scaled = radiance * render.view.radianceScale;
   if (any(greaterThan(scaled, vec3(kFixedPointLimit)))) countStatus(kStatusClipped);
   const uvec4 dither = pcg4d(uvec4(path.pixel, path.sampleIndex, render.view.seed));
-  const ReplicateRef sums = ReplicateRef(render.view.replicates);
+  ReplicateRef sums = ReplicateRef(render.view.replicates);
   atomicAdd(sums.items[index].red, toFixedPoint(scaled.x, dither.x));
   atomicAdd(sums.items[index].green, toFixedPoint(scaled.y, dither.y));
   atomicAdd(sums.items[index].blue, toFixedPoint(scaled.z, dither.z));

@@ -9,7 +9,7 @@ void main() {
   uint slot;
   if (!takeSlot(kQueueRay, itemIndex(), slot)) return;
   const RayState ray = RayRef(pc.rays).items[slot];
-  const PathRef paths = PathRef(pc.paths);
+  PathRef paths = PathRef(pc.paths);
   AlphaKey key = AlphaKey(0u, 0u, uvec2(0u), 0u);
   if (kHasAlpha) {
     key = AlphaKey(paths.items[slot].pixel, paths.items[slot].sampleIndex, RenderRef(pc.render).view.seed,

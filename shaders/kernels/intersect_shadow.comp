@@ -9,7 +9,7 @@ void main() {
   uint slot;
   if (!takeSlot(kQueueShadow, itemIndex(), slot)) return;
   const ShadowState shadow = ShadowRef(pc.shadows).items[slot];
-  const PathRef paths = PathRef(pc.paths);
+  PathRef paths = PathRef(pc.paths);
   AlphaKey key = AlphaKey(0u, 0u, uvec2(0u), 0u);
   if (kHasAlpha) {
     // The high bit keeps a shadow ray's decisions independent of those of the ray that continues the path.

@@ -9,7 +9,7 @@ DispatchSize groupsFor(const uint count) {
 }
 
 void prepareRegenerate(const WaveRef wave) {
-  const RenderRef render = RenderRef(pc.render);
+  RenderRef render = RenderRef(pc.render);
   const uint freeCount = wave.state.counts[kQueueFree];
   const uint inFlight = pc.capacity - freeCount;
   const uint wanted = min(freeCount, pc.activeLimit > inFlight ? pc.activeLimit - inFlight : 0u);
@@ -30,7 +30,7 @@ void prepareRegenerate(const WaveRef wave) {
 
 void main() {
   if (gl_GlobalInvocationID.x != 0u) return;
-  const WaveRef wave = WaveRef(pc.wave);
+  WaveRef wave = WaveRef(pc.wave);
   switch (pc.prepare) {
   case kPrepareRegenerate:
     prepareRegenerate(wave);

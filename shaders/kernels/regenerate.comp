@@ -18,8 +18,8 @@ uvec2 tilePixel(const RenderRef render, const uint padded) {
 }
 
 void main() {
-  const WaveRef wave = WaveRef(pc.wave);
-  const RenderRef render = RenderRef(pc.render);
+  WaveRef wave = WaveRef(pc.wave);
+  RenderRef render = RenderRef(pc.render);
   const uint item = itemIndex();
   if (item >= wave.state.regenerateCount) return;
   const uint slot = queueSlots(kQueueFree).slots[wave.state.counts[kQueueFree] + item];

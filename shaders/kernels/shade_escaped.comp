@@ -10,8 +10,8 @@
 void main() {
   uint slot;
   if (!takeSlot(kQueueEscaped, itemIndex(), slot)) return;
-  const SceneRef scene = SceneRef(pc.scene);
-  const PathRef paths = PathRef(pc.paths);
+  SceneRef scene = SceneRef(pc.scene);
+  PathRef paths = PathRef(pc.paths);
   const vec3 direction = RayRef(pc.rays).items[slot].direction;
   const float pdfBsdf = paths.items[slot].pdfSolidAngle;
   const float pdfLight = pdfBsdf > 0.0 ? environmentHitPdf(scene, direction) : 0.0;

@@ -34,18 +34,18 @@ QueueRef queueSlots(const uint queue) { return QueueRef(pc.queues + uint64_t(que
 // gives each of two cores one contiguous half of a dispatch (llvmpipe) then balances expensive regions of the image.
 uint itemIndex() {
   const uint groups = gl_NumWorkGroups.x;
-  const uint half = (groups + 1u) / 2u;
-  const uint group = gl_WorkGroupID.x < half ? 2u * gl_WorkGroupID.x : 2u * (gl_WorkGroupID.x - half) + 1u;
+  const uint firstHalf = (groups + 1u) / 2u;
+  const uint group = gl_WorkGroupID.x < firstHalf ? 2u * gl_WorkGroupID.x : 2u * (gl_WorkGroupID.x - firstHalf) + 1u;
   return group * pc.workgroupSize + gl_LocalInvocationID.x;
 }
 
 // Appends `slot`, with one atomic per subgroup. Every slot is in a queue at most once, so `capacity` always suffices;
 // the check makes a bug visible instead of corrupting memory.
 void pushSlot(const uint queue, const uint slot) {
-  const uvec4 active = subgroupBallot(true);
+  const uvec4 lanes = subgroupBallot(true);
   uint first = 0u;
-  if (subgroupElect()) first = atomicAdd(WaveRef(pc.wave).state.counts[queue], subgroupBallotBitCount(active));
-  const uint index = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(active);
+  if (subgroupElect()) first = atomicAdd(WaveRef(pc.wave).state.counts[queue], subgroupBallotBitCount(lanes));
+  const uint index = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(lanes);
   if (index < pc.capacity) {
     queueSlots(queue).slots[index] = slot;
   } else {

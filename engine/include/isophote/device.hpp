@@ -29,12 +29,12 @@ struct InstanceOptions {
 };
 
 /// VkInstance with, on request, the validation layers. Move-only.
-class Instance {
+class VulkanInstance {
 public:
-  explicit Instance(const InstanceOptions& options = {});
-  Instance(Instance&&) noexcept;
-  Instance& operator=(Instance&&) noexcept;
-  ~Instance();
+  explicit VulkanInstance(const InstanceOptions& options = {});
+  VulkanInstance(VulkanInstance&&) noexcept;
+  VulkanInstance& operator=(VulkanInstance&&) noexcept;
+  ~VulkanInstance();
 
   [[nodiscard]] VkInstance handle() const;
   [[nodiscard]] std::vector<DeviceInfo> devices() const;
@@ -53,11 +53,11 @@ struct DeviceOptions {
   bool present = false;        ///< enable VK_KHR_swapchain
 };
 
-/// One VkDevice with one queue that computes and transfers (and presents where asked). Borrows the Instance.
+/// One VkDevice with one queue that computes and transfers (and presents where asked). Borrows the VulkanInstance.
 class Device {
 public:
   /// @throws DeviceError listing every device with the reason it was refused
-  Device(const Instance& instance, const DeviceOptions& options = {});
+  Device(const VulkanInstance& instance, const DeviceOptions& options = {});
   Device(Device&&) noexcept;
   Device& operator=(Device&&) noexcept;
   ~Device();

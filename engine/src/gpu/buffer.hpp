@@ -36,12 +36,19 @@ public:
   template <class T> [[nodiscard]] T* mappedAs() const { return static_cast<T*>(mapped_); }
 
 private:
-  const Device* device_ = nullptr;
+  friend void writeBuffer(const Device&, const Buffer&, uint64_t, std::span<const std::byte>);
+  friend void readBuffer(const Device&, const Buffer&, uint64_t, std::span<std::byte>);
+  void create(Memory memory);
+  void destroy() noexcept;
+
+  Device::Impl* device_ = nullptr; // not the Device itself, which may move
   VkBuffer buffer_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  uint64_t memoryBytes_ = 0;
   uint64_t address_ = 0;
   uint64_t bytes_ = 0;
   void* mapped_ = nullptr;
+  std::byte* direct_ = nullptr; // where the host reaches the memory, also of Memory::Device on unified memory
   std::string name_;
 };
 
@@ -50,7 +57,8 @@ void writeBuffer(const Device& device, const Buffer& destination, uint64_t offse
 void readBuffer(const Device& device, const Buffer& source, uint64_t offset, std::span<std::byte> bytes);
 
 /// A device-local buffer filled with `values` (null buffer where empty).
-template <class T> [[nodiscard]] Buffer uploadBuffer(const Device& device, const std::vector<T>& values, const char* name) {
+template <class T>
+[[nodiscard]] Buffer uploadBuffer(const Device& device, const std::vector<T>& values, const char* name) {
   Buffer buffer(device, values.size() * sizeof(T), Memory::Device, name);
   if (!values.empty()) writeBuffer(device, buffer, 0, std::as_bytes(std::span(values)));
   return buffer;

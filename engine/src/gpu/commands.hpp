@@ -19,9 +19,9 @@ struct KernelTime {
   double longestMilliseconds = 0;
 };
 
-/// One reusable command buffer with its fence and a timestamp pair per dispatch. Use: begin, dispatch..., submitAndWait.
-/// Every dispatch is wrapped in a debug-utils region and is followed by a full compute -> compute/indirect/transfer
-/// memory barrier: stages run one after another. Move-only.
+/// One reusable command buffer with its fence and a timestamp pair per dispatch. Use: begin, dispatch...,
+/// submitAndWait. Every dispatch is wrapped in a debug-utils region and is followed by a full compute ->
+/// compute/indirect/transfer memory barrier: stages run one after another. Move-only.
 class CommandStream {
 public:
   /// @param maxDispatches  most dispatches between begin and submit (sizes the query pool)

@@ -24,7 +24,8 @@ struct SpecConstant {
 
 /// Freezes `constants` into the module and removes what they make unreachable (spirv-opt: freeze, fold, dead branch and
 /// dead code elimination), so that a feature a scene lacks leaves neither code nor bindings behind.
-[[nodiscard]] std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span<const SpecConstant> constants);
+[[nodiscard]] std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv,
+                                                    std::span<const SpecConstant> constants);
 
 /// One compute pipeline with its layout. Move-only, named for debuggers.
 class Kernel {
@@ -42,15 +43,20 @@ public:
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] VkPipeline pipeline() const { return pipeline_; }
   [[nodiscard]] VkPipelineLayout layout() const { return layout_; }
+  [[nodiscard]] uint32_t pushBytes() const { return pushBytes_; }
   [[nodiscard]] uint32_t spirvBytes() const { return spirvBytes_; }
   [[nodiscard]] double compileMilliseconds() const { return compileMilliseconds_; }
   [[nodiscard]] bool usesTextures() const { return usesTextures_; } ///< the specialised module declares set 0
 
 private:
-  const Device* device_ = nullptr;
+  void build(const KernelSource& source, std::span<const SpecConstant> constants, VkDescriptorSetLayout textureLayout);
+  void destroy() noexcept;
+
+  Device::Impl* device_ = nullptr; // not the Device itself, which may move
   std::string name_;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
+  uint32_t pushBytes_ = 0;
   uint32_t spirvBytes_ = 0;
   double compileMilliseconds_ = 0;
   bool usesTextures_ = false;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "isophote/device.hpp"
@@ -15,7 +16,8 @@ struct TextureUpload {
   Wrap wrapS = Wrap::Repeat;
   Wrap wrapT = Wrap::Repeat;
   Filter filter = Filter::Linear;
-  bool srgb = false; ///< decode on read (8-bit images; 16-bit sRGB images are converted to linear float by the uploader)
+  bool srgb =
+      false; ///< decode on read (8-bit images; 16-bit sRGB images are converted to linear float by the uploader)
 };
 
 /// Combined image samplers at set 0, binding 0, index = position in the upload list. Images shared between entries
@@ -38,10 +40,15 @@ private:
     VkImage image = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
+    uint64_t memoryBytes = 0;
   };
+  void create(const Device& device, std::span<const TextureUpload> textures);
+  StoredImage storeImage(const Device& device, const TextureUpload& texture, const std::string& name);
+  VkSampler storeSampler(const TextureUpload& texture);
+  void createSet(std::span<const VkDescriptorImageInfo> entries);
   void destroy() noexcept;
 
-  const Device* device_ = nullptr;
+  Device::Impl* device_ = nullptr; // not the Device itself, which may move
   uint32_t size_ = 0;
   uint64_t bytes_ = 0;
   std::vector<StoredImage> images_;

@@ -1,0 +1,105 @@
+#include "isophote/features.hpp"
+
+#include "shared/bsdf_constants.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isophote {
+namespace {
+
+using TextureMember = TextureRef Material::*;
+constexpr TextureMember kTextureMembers[] = {&Material::baseColorTexture, &Material::metallicRoughnessTexture,
+                                             &Material::normalTexture,    &Material::emissiveTexture,
+                                             &Material::specularTexture,  &Material::specularColorTexture};
+
+/// Smallest value of the green channel, in [0, 1]. Filtering cannot go below it.
+float smallestGreen(const ImageData& image) {
+  const size_t channelBytes = image.bitsPerChannel / 8;
+  uint32_t smallest = 0xffff;
+  for (size_t at = channelBytes; at + channelBytes <= image.pixels.size(); at += 4 * channelBytes) {
+    uint32_t value = std::to_integer<uint32_t>(image.pixels[at]);
+    if (channelBytes == 2) value |= std::to_integer<uint32_t>(image.pixels[at + 1]) << 8;
+    smallest = std::min(smallest, value);
+  }
+  return static_cast<float>(smallest) / (channelBytes == 2 ? 65535.0f : 255.0f);
+}
+
+/// Widens the limit by far more than the rounding of texture filtering (8 bits of interpolation weight are the least
+/// that Vulkan allows), so that the feature is never missing on the device.
+constexpr float kFilteringMargin = 1.01f;
+
+bool canBeMirror(const Scene& scene, const Material& material) {
+  const float limit = std::sqrt(gpu::kMirrorAlpha) * kFilteringMargin;
+  if (material.roughness < limit) return true;
+  if (!material.metallicRoughnessTexture.present()) return false;
+  const Texture& texture = scene.textures[static_cast<size_t>(material.metallicRoughnessTexture.texture)];
+  return material.roughness * smallestGreen(scene.images[texture.image]) < limit;
+}
+
+void addMaterial(const Scene& scene, const Material& material, FeatureSet& features) {
+  const auto isUsed = [&](TextureMember member) { return (material.*member).present(); };
+  if (std::any_of(std::begin(kTextureMembers), std::end(kTextureMembers), isUsed)) {
+    features.add(Feature::kHasTextures);
+  }
+  if (material.normalTexture.present()) features.add(Feature::kHasNormalMaps);
+  if (material.alphaMode != AlphaMode::Opaque) features.add(Feature::kHasAlpha);
+  if (material.emissive != glm::vec3(0)) features.add(Feature::kHasEmissiveTriangles);
+  if (material.unlit) {
+    features.add(Feature::kHasUnlit);
+    return;
+  }
+  // Factors multiply textures of at most 1, so a factor of 0 rules the lobe out. A dielectric with ior 1 keeps its
+  // grazing reflection (f90 = specular).
+  if (material.metallic == 0 && material.specular == 0) return;
+  features.add(Feature::kHasSpecular);
+  if (canBeMirror(scene, material)) features.add(Feature::kHasMirror);
+}
+
+} // namespace
+
+const std::vector<FeatureDescription>& allFeatures() {
+  static const std::vector<FeatureDescription> features{
+#define ISOPHOTE_FEATURE(id, constant, name, omitted) {Feature::constant, name, omitted},
+#include "shared/features.inc"
+#undef ISOPHOTE_FEATURE
+  };
+  return features;
+}
+
+FeatureSet FeatureSet::all() {
+  FeatureSet set;
+  for (const auto& description : allFeatures()) set.add(description.feature);
+  return set;
+}
+
+std::vector<std::string> FeatureSet::names() const {
+  std::vector<std::string> names;
+  for (const auto& description : allFeatures()) {
+    if (has(description.feature)) names.emplace_back(description.name);
+  }
+  return names;
+}
+
+FeatureSet sceneFeatures(const Scene& scene) {
+  FeatureSet features;
+  std::vector<bool> meshUsed(scene.meshes.size(), false);
+  for (const auto& instance : scene.instances) meshUsed[instance.mesh] = true;
+  std::vector<bool> materialUsed(scene.materials.size(), false);
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (!meshUsed[i]) continue;
+    for (const auto& primitive : scene.meshes[i].primitives) {
+      materialUsed[primitive.material] = true;
+      if (!primitive.normals.empty()) features.add(Feature::kHasShadingNormals);
+      if (!primitive.colors.empty()) features.add(Feature::kHasVertexColors);
+    }
+  }
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (materialUsed[i]) addMaterial(scene, scene.materials[i], features);
+  }
+  if (!scene.lights.empty()) features.add(Feature::kHasPunctualLights);
+  if (scene.environment) features.add(Feature::kHasEnvironment);
+  return features;
+}
+
+} // namespace isophote

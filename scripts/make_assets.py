@@ -1,0 +1,22 @@
+#!/usr/bin/env python3
+"""Writes the scenes of assets/, always the same bytes.
+
+usage: scripts/make_assets.py [FOLDER]   (assets/ of this checkout)
+"""
+import pathlib
+import sys
+
+from asset_maker import cornell_box, demo, material_grid, triangle
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[1] / "assets")
+    folder.mkdir(parents=True, exist_ok=True)
+    cornell_box.scene().write_gltf(folder / "cornell-box.gltf")
+    triangle.scene().write_gltf(folder / "triangle.gltf")
+    material_grid.scene().write_glb(folder / "material-grid.glb")
+    demo.scene().write_glb(folder / "demo.glb")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,37 @@
+// Reflectance at a smooth boundary.
+#ifndef ISOPHOTE_BSDF_FRESNEL_GLSL
+#define ISOPHOTE_BSDF_FRESNEL_GLSL
+
+/// Interpolates from f0 at normal incidence to f90 at grazing: f0 + (f90 - f0) (1 - cosine)^5.
+///
+/// Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", eq. 15; f90 free as in glTF 2.0.
+/// @param cosine between direction and (micro)normal; clamped to [0, 1]
+/// Accuracy: 1e-6 absolute for f0, f90 in [0, 1]; measured in tests/glsl/fresnel_test.cpp.
+vec3 fresnelSchlick(const vec3 f0, const vec3 f90, const float cosine) {
+  const float x = 1.0 - clamp(cosine, 0.0, 1.0);
+  const float x2 = x * x;
+  return f0 + (f90 - f0) * (x2 * x2 * x);
+}
+
+/// Reflectance of unpolarized light at the boundary between two dielectrics.
+///
+/// Source: Cook and Torrance 1982, "A Reflectance Model for Computer Graphics", appendix, with
+/// g - c = (eta^2 - 1) / (g + c), which does not cancel for eta near 1.
+/// @param cosI on the incident side, in [0, 1]
+/// @param eta  index behind the boundary over the index in front, in [2^-10, 2^10]
+/// @return     in [0, 1]; exactly 1 for total internal reflection, exactly 0 for eta = 1
+/// Accuracy: 2e-6 absolute for eta in [1/3, 3], more only within 1e-6 of the critical angle's cosine, where the
+/// reflectance has infinite slope; measured in tests/glsl/fresnel_test.cpp.
+float fresnelDielectric(const float cosI, const float eta) {
+  if (eta == 1.0) return 0.0;                       // no boundary; the formula is 0 / 0 at cosI = 0
+  const float contrast = (eta - 1.0) * (eta + 1.0); // eta^2 - 1
+  const float g2 = contrast + cosI * cosI;
+  if (g2 <= 0.0) return 1.0;
+  const float sum = sqrt(g2) + cosI; // > 0
+  const float difference = contrast / sum;
+  const float s = difference / sum;
+  const float p = (cosI * sum - 1.0) / (cosI * difference + 1.0); // divisor >= min(1, eta^2)
+  return min(0.5 * s * s * (1.0 + p * p), 1.0);
+}
+
+#endif

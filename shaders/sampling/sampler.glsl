@@ -1,0 +1,38 @@
+// Random numbers as pure functions of (pixel, sample, pair, seed): never of thread, queue position or batch.
+#ifndef ISOPHOTE_SAMPLING_SAMPLER_GLSL
+#define ISOPHOTE_SAMPLING_SAMPLER_GLSL
+
+#include "sampling/hash.glsl"
+#include "sampling/sobol.glsl"
+#include "shared/constants.glsl"
+#include "shared/film_types.h"
+
+const uint kSamplerSobol = 0u; // values of kSampler, as isophote::SamplerKind
+const uint kSamplerIndependent = 1u;
+
+struct SampleKey {
+  uint pixel; // x | y << 16
+  uint sampleIndex;
+  uvec2 seed;
+};
+
+/// The two numbers of pair `pair`, as 32-bit fractions.
+///
+/// Sobol: sample s is point s / kReplicateCount of replicate s % kReplicateCount; pairs, pixels, replicates and seeds
+/// differ by scrambling. No two keys share all scramble seeds: pcg4d is a bijection of the 128-bit key.
+/// @param pair  below 2^29
+uvec2 sampleBits2d(const SampleKey key, uint pair) {
+  if (kSampler == kSamplerIndependent) {
+    // Alpha tests hash the same state with four indices; none of those is ~0.
+    const uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
+    return pcg4d(state ^ uvec4(pair, uvec3(0xffffffffu))).xy;
+  }
+  const uint replicate = key.sampleIndex % kReplicateCount;
+  const uvec4 scramble = pcg4d(uvec4(key.pixel, pair * kReplicateCount + replicate, key.seed));
+  return owenSobol2d(key.sampleIndex / kReplicateCount, scramble.xyz);
+}
+
+/// The two numbers of pair `pair`, in [0, 1), multiples of 2^-24.
+vec2 sample2d(const SampleKey key, uint pair) { return unitFloat(sampleBits2d(key, pair)); }
+
+#endif

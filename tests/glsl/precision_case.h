@@ -1,0 +1,19 @@
+#ifndef ISOPHOTE_TESTS_PRECISION_CASE_H
+#define ISOPHOTE_TESTS_PRECISION_CASE_H
+
+#include "shared/glsl_compat.h"
+
+ISOPHOTE_SHARED_BEGIN
+
+struct NonFiniteCase {
+  uint bits; // of the float under test
+};
+
+struct NonFiniteResult {
+  uint scalar;     // isNonFinite(x)
+  uint components; // bit i: isNonFinite of a vec3 with x at i and ones elsewhere
+};
+
+ISOPHOTE_SHARED_END
+
+#endif
