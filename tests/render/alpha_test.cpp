@@ -52,10 +52,7 @@ TEST(RenderAlpha, ShadowRaysSeeTheSameOpacityAsPaths) {
   for (const auto mode : {LightSampling::Mis, LightSampling::LightsOnly, LightSampling::BsdfOnly}) {
     const bool blind = mode == LightSampling::BsdfOnly;
     const Image image = renderImage(scene, sensorAt({0, 0, 0}), 8, 8, blind ? 16384 : 8192,
-                                    {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 5},
-                                     .execution = {},
-                                     .crop = {},
-                                     .ranges = {}});
+                                    {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 5}});
     EXPECT_TRUE(pixelMeanIs(image, "R", 2 * 0.2394564705 * (1 - double(0.3f)), blind ? 0.015 : 0.006));
   }
 }
@@ -66,10 +63,7 @@ TEST(RenderAlpha, BlendedAndMaskedEmittersShineOnlyWhereTheyAre) {
   scene.materials[1].baseColor.w = 0.5f;
   for (const auto mode : {LightSampling::Mis, LightSampling::LightsOnly, LightSampling::BsdfOnly}) {
     const bool blind = mode == LightSampling::BsdfOnly;
-    const RenderOptions options{.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 6},
-                                .execution = {},
-                                .crop = {},
-                                .ranges = {}};
+    const RenderOptions options{.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 6}};
     scene.materials[1].alphaMode = AlphaMode::Blend;
     const Image blended = renderImage(scene, sensorAt({0, 0, 0}), 8, 8, blind ? 16384 : 8192, options);
     EXPECT_TRUE(pixelMeanIs(blended, "R", 0.2394564705, blind ? 0.02 : 0.006));

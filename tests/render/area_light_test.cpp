@@ -29,10 +29,7 @@ double polygonIrradiance(const std::vector<glm::dvec3>& vertices) {
 /// Reflectance 1: radiance is irradiance / pi. 64 pixels of the same tiny view are the replicates.
 Image renderSensor(const Scene& scene, glm::dvec3 point, LightSampling mode, uint32_t samples) {
   return renderImage(scene, sensorAt(point), 8, 8, samples,
-                     {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 22},
-                      .execution = {},
-                      .crop = {},
-                      .ranges = {}});
+                     {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 22}});
 }
 
 TEST(RenderAreaLight, Test22SquareGivesLambertsFormFactorCentredAndAtItsCorner) {

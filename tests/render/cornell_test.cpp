@@ -9,9 +9,7 @@ namespace {
 
 using namespace isophote::test;
 
-RenderOptions withEstimator(const EstimatorSettings& estimator) {
-  return {.estimator = estimator, .execution = {}, .crop = {}, .ranges = {}};
-}
+RenderOptions withEstimator(const EstimatorSettings& estimator) { return {.estimator = estimator}; }
 
 TEST(RenderCornell, Test29EveryPixelMatchesTheReference) {
   const Scene scene = cornellBox();

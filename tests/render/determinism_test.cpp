@@ -112,6 +112,8 @@ std::tuple<Scene, Camera> unlitBox() {
   return {scene, boxFurnaceCamera()};
 }
 
+std::string featureSceneName(const testing::TestParamInfo<FeatureScene>& info) { return info.param.name; }
+
 class FeatureScenes : public testing::TestWithParam<FeatureScene> {};
 
 TEST_P(FeatureScenes, SpecializedKernelsGiveTheBitsOfTheFullOnes) {
@@ -137,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
                        return std::tuple(alphaLayers(3, 0.4f), orthographicLookAt({0, 0, 3}, {}, 0.5, 0.5));
                      }},
         FeatureScene{"Unlit", unlitBox}, FeatureScene{"Nothing", [] { return std::tuple(Scene{}, Camera{}); }}),
-    [](const testing::TestParamInfo<FeatureScene>& info) { return info.param.name; });
+    featureSceneName);
 
 TEST(RenderFeatures, UnlitWallsLightADiffuseBox) {
   const auto [scene, camera] = unlitBox();

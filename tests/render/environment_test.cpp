@@ -44,6 +44,11 @@ TEST(RenderEnvironment, TexelIrradianceHasItsClosedFormUnderTheIntegrator) {
   EXPECT_NEAR(irradiance(oneTexelEnvironment(16, 8, 3, 2, glm::vec3(5)), {0, 1, 0}), 5 * dPhi * tent, 1e-4);
 }
 
+std::string lightSamplingName(const testing::TestParamInfo<LightSampling>& info) {
+  const char* const names[] = {"Mis", "LightsOnly", "BsdfOnly"};
+  return names[static_cast<size_t>(info.param)];
+}
+
 class EnvironmentTexels : public testing::TestWithParam<LightSampling> {};
 
 TEST_P(EnvironmentTexels, Test35OneTexelGivesItsIrradiance) {
@@ -63,8 +68,7 @@ TEST_P(EnvironmentTexels, Test35OneTexelGivesItsIrradiance) {
     const Camera camera = orthographicLookAt(texel.normal, glm::dvec3(0), 0.5, 0.5);
     const EstimatorSettings estimator{.filter = PixelFilter::Box, .lightSampling = GetParam(), .seed = 35};
     const bool blind = GetParam() == LightSampling::BsdfOnly; // finds the texel rarely
-    const Image image = renderImage(scene, camera, 8, 8, blind ? 16384 : 2048,
-                                    {.estimator = estimator, .execution = {}, .crop = {}, .ranges = {}});
+    const Image image = renderImage(scene, camera, 8, 8, blind ? 16384 : 2048, {.estimator = estimator});
     const double expected = irradiance(environment, texel.normal) / kPi;
     SCOPED_TRACE(testing::Message() << "texel " << texel.x << "," << texel.y);
     EXPECT_TRUE(pixelMeanIs(image, "R", expected, blind ? 0.05 : 0.006));
@@ -73,17 +77,13 @@ TEST_P(EnvironmentTexels, Test35OneTexelGivesItsIrradiance) {
 
 INSTANTIATE_TEST_SUITE_P(RenderEnvironment, EnvironmentTexels,
                          testing::Values(LightSampling::Mis, LightSampling::LightsOnly, LightSampling::BsdfOnly),
-                         [](const testing::TestParamInfo<LightSampling>& info) {
-                           const char* const names[] = {"Mis", "LightsOnly", "BsdfOnly"};
-                           return names[static_cast<size_t>(info.param)];
-                         });
+                         lightSamplingName);
 
 TEST(RenderEnvironment, Test37EveryFilterKeepsAConstantToTheBorders) {
   Scene scene;
   scene.environment = constantEnvironment({0.25f, 1, 3});
   for (const auto filter : {PixelFilter::Box, PixelFilter::Gaussian, PixelFilter::BlackmanHarris}) {
-    const Image image = renderImage(scene, lookAt({}, {0, 0, -1}, 0.8), 17, 9, 16,
-                                    {.estimator = {.filter = filter}, .execution = {}, .crop = {}, .ranges = {}});
+    const Image image = renderImage(scene, lookAt({}, {0, 0, -1}, 0.8), 17, 9, 16, {.estimator = {.filter = filter}});
     for (const float value : plane(image, "R")) ASSERT_NEAR(value, 0.25, 0.25e-6);
     for (const float value : plane(image, "G")) ASSERT_NEAR(value, 1, 1e-6);
     for (const float value : plane(image, "B")) ASSERT_NEAR(value, 3, 3e-6);
@@ -96,9 +96,8 @@ TEST(RenderEnvironment, WhiteLambertSphereIsInvisibleInAWhiteFurnace) {
   scene.environment = constantEnvironment(glm::vec3(1));
   addPrimitive(scene, sphere(1, 10, false, false, addMaterial(scene, lambert(glm::vec3(1)))));
   for (const auto mode : {LightSampling::Mis, LightSampling::LightsOnly, LightSampling::BsdfOnly}) {
-    const Image image = renderImage(
-        scene, lookAt({0, 0, 4}, {}, 0.6), 16, 16, 512,
-        {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode}, .execution = {}, .crop = {}, .ranges = {}});
+    const Image image = renderImage(scene, lookAt({0, 0, 4}, {}, 0.6), 16, 16, 512,
+                                    {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode}});
     EXPECT_TRUE(pixelMeanIs(image, "G", 1, 0.006));
   }
 }

@@ -95,10 +95,7 @@ TEST(RenderFilm, StandardErrorsTellTheSpreadBetweenSeeds) {
     uint32_t outside = 0, tests = 0;
     for (uint64_t seed = 0; seed < 64; ++seed) {
       const Image image = renderImage(scene, cornellCamera(), kSize, kSize, 128,
-                                      {.estimator = {.sampler = sampler, .filter = PixelFilter::Box, .seed = seed},
-                                       .execution = {},
-                                       .crop = {},
-                                       .ranges = {}});
+                                      {.estimator = {.sampler = sampler, .filter = PixelFilter::Box, .seed = seed}});
       const MeasuredImage result = measured(image);
       for (size_t i = 0; i < result.pixels.size(); ++i) {
         const Estimate &estimate = result.pixels[i][1], &truth = reference.pixels[i][1];

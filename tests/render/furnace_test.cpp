@@ -16,7 +16,7 @@ constexpr uint32_t kSize = 16;
 
 Image renderFurnace(float rho, uint32_t samples, const EstimatorSettings& estimator) {
   return renderImage(boxFurnace(glm::vec3(1), glm::vec3(rho)), boxFurnaceCamera(), kSize, kSize, samples,
-                     {.estimator = estimator, .execution = {}, .crop = {}, .ranges = {}});
+                     {.estimator = estimator});
 }
 
 struct FurnaceCase {
@@ -24,6 +24,14 @@ struct FurnaceCase {
   LightSampling lightSampling;
   MisHeuristic heuristic;
 };
+
+std::string furnaceCaseName(const testing::TestParamInfo<FurnaceCase>& info) {
+  const char* const samplers[] = {"Sobol", "Independent"};
+  const char* const modes[] = {"Mis", "LightsOnly", "BsdfOnly"};
+  const char* const heuristics[] = {"Balance", "Power"};
+  return std::string(samplers[static_cast<size_t>(info.param.sampler)]) +
+         modes[static_cast<size_t>(info.param.lightSampling)] + heuristics[static_cast<size_t>(info.param.heuristic)];
+}
 
 class FurnaceCases : public testing::TestWithParam<FurnaceCase> {};
 
@@ -48,14 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                     FurnaceCase{SamplerKind::Independent, LightSampling::Mis, MisHeuristic::Balance},
                     FurnaceCase{SamplerKind::Independent, LightSampling::LightsOnly, MisHeuristic::Power},
                     FurnaceCase{SamplerKind::Independent, LightSampling::BsdfOnly, MisHeuristic::Power}),
-    [](const testing::TestParamInfo<FurnaceCase>& info) {
-      const char* const samplers[] = {"Sobol", "Independent"};
-      const char* const modes[] = {"Mis", "LightsOnly", "BsdfOnly"};
-      const char* const heuristics[] = {"Balance", "Power"};
-      return std::string(samplers[static_cast<size_t>(info.param.sampler)]) +
-             modes[static_cast<size_t>(info.param.lightSampling)] +
-             heuristics[static_cast<size_t>(info.param.heuristic)];
-    });
+    furnaceCaseName);
 
 TEST(RenderFurnace, Test17DepthLimitCutsTheSeriesAtEightScatterings) {
   const EstimatorSettings estimator{.filter = PixelFilter::Box, .maxDepth = 8, .russianRoulette = false, .seed = 17};

@@ -85,8 +85,7 @@ TEST(RenderPunctual, OccludedLightsCastBlackShadows) {
     light.direction = {0, -1, 0};
     scene.lights = {light};
     const EstimatorSettings direct{.filter = PixelFilter::Box, .maxDepth = 1};
-    const Image image = renderImage(scene, sensorAt({0, 0, 0}), 4, 4, 16,
-                                    {.estimator = direct, .execution = {}, .crop = {}, .ranges = {}});
+    const Image image = renderImage(scene, sensorAt({0, 0, 0}), 4, 4, 16, {.estimator = direct});
     for (const float value : plane(image, "R")) ASSERT_EQ(value, 0);
   }
 }

@@ -20,6 +20,13 @@ const std::vector<glm::u8vec4>& texels() {
   return kTexels;
 }
 
+std::string textureLookupName(const testing::TestParamInfo<std::tuple<Filter, Wrap>>& info) {
+  const char* const filters[] = {"Linear", "Nearest"};
+  const char* const wraps[] = {"Repeat", "Clamp", "Mirror"};
+  return std::string(filters[static_cast<size_t>(std::get<0>(info.param))]) +
+         wraps[static_cast<size_t>(std::get<1>(info.param))];
+}
+
 class TextureLookups : public testing::TestWithParam<std::tuple<Filter, Wrap>> {};
 
 TEST_P(TextureLookups, UnlitQuadShowsTheTextureAtPixelCenters) {
@@ -50,12 +57,7 @@ TEST_P(TextureLookups, UnlitQuadShowsTheTextureAtPixelCenters) {
 INSTANTIATE_TEST_SUITE_P(RenderTexture, TextureLookups,
                          testing::Combine(testing::Values(Filter::Linear, Filter::Nearest),
                                           testing::Values(Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat)),
-                         [](const auto& info) {
-                           const char* const filters[] = {"Linear", "Nearest"};
-                           const char* const wraps[] = {"Repeat", "Clamp", "Mirror"};
-                           return std::string(filters[static_cast<size_t>(std::get<0>(info.param))]) +
-                                  wraps[static_cast<size_t>(std::get<1>(info.param))];
-                         });
+                         textureLookupName);
 
 TEST(RenderTexture, SixteenBitTexelsKeepTheirPrecision) {
   Scene scene;
