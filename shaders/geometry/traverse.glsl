@@ -32,6 +32,15 @@ bool isCloser(const float t, const uint instance, const uint triangle, const Ray
   return instance < best.instance || (instance == best.instance && triangle < best.triangle);
 }
 
+// Largest coordinate difference between a point and a corner of the boxes in a tree's root.
+float reachOf(const BvhNode root, const vec3 origin) {
+  vec3 farthest = max(abs(root.lower0 - origin), abs(root.upper0 - origin));
+  if (root.lower1.x <= root.upper1.x) {
+    farthest = max(farthest, max(abs(root.lower1 - origin), abs(root.upper1 - origin)));
+  }
+  return max(farthest.x, max(farthest.y, farthest.z));
+}
+
 /// The body of traceClosest and traceOccluded. `anyHit` is a literal at both calls, so each keeps only its own half.
 ///
 /// One loop over nodes, instances and triangles. It ends: every turn either descends the tree, consumes a leaf item or
@@ -50,19 +59,18 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
   uint stackSize = 0u;
   uint instanceFloor = 0u; // stack size at which the current instance is done
   uint instance = kTopLevel;
-  const BoxRay worldRay = makeBoxRay(origin, direction);
+  const BoxRay worldRay = makeBoxRay(origin, direction, reachOf(nodes.items[0], origin));
   BoxRay boxRay = worldRay;
   TriangleRay triangleRay = TriangleRay(vec3(0.0), vec3(0.0), 0u);
-  float tLimit = min(tMax, 3e38) * kSlabFarScale; // for boxes, finite
-  uint work = 0u;                                 // the root
+  uint work = 0u; // the root
 
   while (true) {
     const uint index = work & kWorkIndexMask;
     const uint count = work >> kWorkCountShift;
     if (count == 0u) {
       const BvhNode node = nodes.items[index];
-      const float t0 = enterBox(boxRay, node.lower0, node.upper0, tMin, tLimit);
-      const float t1 = enterBox(boxRay, node.lower1, node.upper1, tMin, tLimit);
+      const float t0 = enterBox(boxRay, node.lower0, node.upper0, tMin, best.t);
+      const float t1 = enterBox(boxRay, node.lower1, node.upper1, tMin, best.t);
       const uint work0 = node.child0 | node.count0 << kWorkCountShift;
       const uint work1 = node.child1 | node.count1 << kWorkCountShift;
       const bool first1 = t1 != kBoxMissed && (t0 == kBoxMissed || t1 < t0);
@@ -93,9 +101,9 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
       const Affine objectFromWorld = objectFromWorldOf(instances, instance);
       const vec3 objectOrigin = transformPoint(objectFromWorld, origin);
       const vec3 objectDirection = transformVector(objectFromWorld, direction);
-      boxRay = makeBoxRay(objectOrigin, objectDirection);
-      triangleRay = makeTriangleRay(objectOrigin, objectDirection);
       work = instances.items[instance].rootNode;
+      boxRay = makeBoxRay(objectOrigin, objectDirection, reachOf(nodes.items[work], objectOrigin));
+      triangleRay = makeTriangleRay(objectOrigin, objectDirection);
     } else {
       const BvhTriangle triangle = triangles.items[index];
       const TriangleHit hit = intersectTriangle(triangleRay, triangle.v0, triangle.v1, triangle.v2);
@@ -109,7 +117,6 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
         }
         if (accepted) {
           best = RayHit(hit.t, instance, index, hit.barycentrics, true, best.stackOverflow);
-          tLimit = hit.t * kSlabFarScale;
           if (anyHit) return best;
         }
       }
@@ -124,7 +131,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
         boxRay = worldRay;
       } else {
         --stackSize;
-        if (stackDistance[stackSize] <= tLimit) work = stackWork[stackSize];
+        if (stackDistance[stackSize] <= best.t) work = stackWork[stackSize];
       }
     }
   }
