@@ -22,8 +22,8 @@ struct ExactCase {
 };
 
 struct ExactResult {
-  vec2 sum;         // twoSum(a, b)
-  vec2 product;     // twoProduct(a, b)
+  vec2 sum;         // of a and b, and its rounding error
+  vec2 product;     // of a and b, and its rounding error
   float difference; // differenceOfProducts(a, b, c, d)
 };
 

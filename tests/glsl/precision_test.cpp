@@ -59,7 +59,7 @@ TEST(FloatBits, NonFiniteValuesAreRecognizedByTheirBits) {
   }
 }
 
-TEST(ExactArithmetic, SumAndItsErrorAddUpExactly) {
+TEST(Precise, SumAndItsErrorAddUpExactly) {
   const auto cases = exactCases();
   const auto results = runExact(cases);
   for (size_t i = 0; i < cases.size(); ++i) {
@@ -69,7 +69,7 @@ TEST(ExactArithmetic, SumAndItsErrorAddUpExactly) {
   }
 }
 
-TEST(ExactArithmetic, ProductAndItsErrorAddUpExactly) {
+TEST(ExactProduct, ProductAndItsErrorAddUpExactly) {
   const auto cases = exactCases();
   const auto results = runExact(cases);
   for (size_t i = 0; i < cases.size(); ++i) {
@@ -79,7 +79,7 @@ TEST(ExactArithmetic, ProductAndItsErrorAddUpExactly) {
   }
 }
 
-TEST(ExactArithmetic, DifferenceOfProductsIsWithinTwoUlpAlsoWhereItCancels) {
+TEST(ExactProduct, DifferenceOfProductsIsWithinTwoUlpAlsoWhereItCancels) {
   const auto cases = exactCases();
   const auto results = runExact(cases);
   double worst = 0;
