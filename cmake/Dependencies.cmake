@@ -1,13 +1,16 @@
 # Everything comes from the system's packages; nothing is downloaded. scripts/install-dependencies lists the packages.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON) # a project that adds this one as a subdirectory links them too
 find_package(Vulkan REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
+set(CMAKE_MESSAGE_LOG_LEVEL NOTICE) # Debian's Imath package lists a Python library it does not contain, and says so
 find_package(OpenEXR REQUIRED)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(SPIRV-Tools-opt REQUIRED)
 find_package(TinyGLTF REQUIRED)
-pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+pkg_check_modules(STB REQUIRED IMPORTED_TARGET GLOBAL stb)
 find_program(GLSLANG glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)

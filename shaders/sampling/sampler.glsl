@@ -2,6 +2,8 @@
 #ifndef ISOPHOTE_SAMPLING_SAMPLER_GLSL
 #define ISOPHOTE_SAMPLING_SAMPLER_GLSL
 
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require // of shared/film_types.h
+
 #include "sampling/hash.glsl"
 #include "sampling/sobol.glsl"
 #include "shared/constants.glsl"
@@ -20,12 +22,15 @@ struct SampleKey {
 ///
 /// Sobol: sample s is point s / kReplicateCount of replicate s % kReplicateCount; pairs, pixels, replicates and seeds
 /// differ by scrambling. No two keys share all scramble seeds: pcg4d is a bijection of the 128-bit key.
+/// Since every prefix of 2^m points is a net in each pair, neighbouring samples lie in opposite halves in every pair:
+/// the coarsest interaction between two pairs has up to twice the variance of independent numbers, all others gain or
+/// equal.
 /// @param pair  below 2^29
 uvec2 sampleBits2d(const SampleKey key, uint pair) {
   if (kSampler == kSamplerIndependent) {
-    uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
-    state.x ^= pair;
-    return pcg4d(state).xy;
+    // Alpha tests hash the same state with four indices; none of those is ~0.
+    const uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
+    return pcg4d(state ^ uvec4(pair, uvec3(0xffffffffu))).xy;
   }
   const uint replicate = key.sampleIndex % kReplicateCount;
   const uvec4 scramble = pcg4d(uvec4(key.pixel, pair * kReplicateCount + replicate, key.seed));
@@ -34,14 +39,5 @@ uvec2 sampleBits2d(const SampleKey key, uint pair) {
 
 /// The two numbers of pair `pair`, in [0, 1), multiples of 2^-24.
 vec2 sample2d(const SampleKey key, uint pair) { return unitFloat(sampleBits2d(key, pair)); }
-
-/// A number for an event that has no fixed place on the path, such as the alpha test of one candidate hit: independent
-/// of every pair and, for different `event`, of each other.
-///
-/// @return in [0, 1), a multiple of 2^-24
-float sampleEvent(const SampleKey key, uvec4 event) {
-  const uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
-  return unitFloat(pcg4d(state ^ pcg4d(event)).x);
-}
 
 #endif

@@ -174,6 +174,12 @@ void CommandStream::fill(const Buffer& buffer, uint32_t value) {
   recordFullBarrier(impl_->commands);
 }
 
+void CommandStream::copy(const Buffer& source, const Buffer& destination) {
+  const VkBufferCopy region{.size = source.bytes()};
+  vkCmdCopyBuffer(impl_->commands, source.handle(), destination.handle(), 1, &region);
+  recordFullBarrier(impl_->commands);
+}
+
 VkCommandBuffer CommandStream::handle() const { return impl_->commands; }
 
 void CommandStream::submitAndWait(double timeoutSeconds) {

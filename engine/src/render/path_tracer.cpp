@@ -97,7 +97,8 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
     const uint32_t paths = execution.pathPoolSize != 0 ? execution.pathPoolSize
                                                        : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
     pool.emplace(device, paths, kernels->intersectShadow.has_value());
-    gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filterTable(estimator.filter))));
+    const std::vector<float> filter = filterTable(estimator.filter);
+    gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
   }
 }

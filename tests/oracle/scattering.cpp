@@ -1,0 +1,52 @@
+#include "oracle/scattering.hpp"
+
+#include <cmath>
+
+namespace isophote::oracle {
+
+namespace {
+
+glm::dmat3 frameAround(glm::dvec3 normal) {
+  const glm::dvec3 axis = std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 tangent = glm::normalize(glm::cross(axis, normal));
+  return {tangent, glm::cross(normal, tangent), normal};
+}
+
+} // namespace
+
+Scattering::Scattering(const SurfacePoint& point, glm::dvec3 wo)
+    : ng_(point.ng), frame_(frameAround(point.ns)), woLocal_(glm::transpose(frame_) * wo), lit_(aboveBoth(wo)),
+      lambert_(point.material.metallic == 0 && point.material.specular == 0),
+      model_(metallicRoughness(point.material.baseColor, point.material.metallic, point.material.roughness,
+                               point.material.ior, point.material.specular, point.material.specularColor)) {}
+
+ScatterValue Scattering::evaluate(glm::dvec3 wi) const {
+  if (!lit_ || !aboveBoth(wi)) return {};
+  const glm::dvec3 wiLocal = glm::transpose(frame_) * wi;
+  if (lambert_) return {model_.baseColor * (wiLocal.z / kPi), wiLocal.z / kPi};
+  return {evalBsdf(model_, woLocal_, wiLocal), pdfBsdf(model_, woLocal_, wiLocal)};
+}
+
+ScatterSample Scattering::sample(RandomStream& random) const {
+  if (!lit_) return {};
+  ScatterSample result;
+  const double uLobe = random.next();
+  const glm::dvec2 u = random.next2();
+  if (lambert_) {
+    const double r = std::sqrt(u.x), phi = 2 * kPi * u.y;
+    result.wi = frame_ * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x));
+    const ScatterValue value = evaluate(result.wi);
+    result.pdf = value.pdf;
+    if (value.pdf > 0) result.weight = model_.baseColor;
+    return result;
+  }
+  const BsdfSample sample = sampleBsdf(model_, woLocal_, uLobe, u);
+  result.wi = frame_ * sample.wiLocal;
+  if (!sample.valid || !aboveBoth(result.wi)) return {};
+  result.weight = sample.weight;
+  result.pdf = sample.pdfSolidAngle;
+  result.delta = sample.delta;
+  return result;
+}
+
+} // namespace isophote::oracle

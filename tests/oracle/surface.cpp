@@ -1,0 +1,135 @@
+#include "oracle/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "oracle/texture_lookup.hpp"
+
+namespace isophote::oracle {
+
+namespace {
+
+/// One hit with the tables its attributes come from.
+struct Attributes {
+  const Scene& scene;
+  const Primitive& primitive;
+  const Material& material;
+  glm::uvec3 vertices;
+  glm::dvec3 weights;
+
+  Attributes(const Scene& source, const Triangle& triangle, const Hit& hit)
+      : scene(source),
+        primitive(source.meshes[source.instances[triangle.instance].mesh].primitives[triangle.primitive]),
+        material(source.materials[triangle.material]), vertices(0), weights(1 - hit.b1 - hit.b2, hit.b1, hit.b2) {
+    for (int corner = 0; corner < 3; ++corner)
+      vertices[corner] = primitive.indices[size_t{3} * triangle.index + static_cast<size_t>(corner)];
+  }
+
+  template <int N> [[nodiscard]] glm::vec<N, double> interpolate(const std::vector<glm::vec<N, float>>& values) const {
+    using Vector = glm::vec<N, double>;
+    return weights.x * Vector(values[vertices.x]) + weights.y * Vector(values[vertices.y]) +
+           weights.z * Vector(values[vertices.z]);
+  }
+
+  [[nodiscard]] glm::dvec4 texture(const TextureRef& reference, Encoding encoding) const {
+    const auto& uvs = primitive.uvs[reference.uvSet];
+    const glm::dvec2 uv = uvs.empty() ? glm::dvec2(0) : interpolate<2>(uvs);
+    return lookUp(scene, reference, uv, encoding);
+  }
+
+  [[nodiscard]] glm::dvec4 baseColor() const {
+    glm::dvec4 color(material.baseColor);
+    if (material.baseColorTexture.present()) color *= texture(material.baseColorTexture, Encoding::Srgb);
+    if (!primitive.colors.empty()) color *= interpolate<4>(primitive.colors);
+    return color;
+  }
+};
+
+SurfaceMaterial evaluateMaterial(const Attributes& at) {
+  SurfaceMaterial result;
+  const Material& source = at.material;
+  result.baseColor = glm::clamp(glm::dvec3(at.baseColor()), 0.0, 1.0); // a reflectance, whatever the vertex colors say
+  result.metallic = source.metallic;
+  result.roughness = source.roughness;
+  result.ior = source.ior;
+  result.specular = source.specular;
+  result.specularColor = glm::dvec3(source.specularColor);
+  if (source.metallicRoughnessTexture.present()) {
+    const glm::dvec4 texel = at.texture(source.metallicRoughnessTexture, Encoding::Linear);
+    result.roughness *= texel.y;
+    result.metallic *= texel.z;
+  }
+  if (source.specularTexture.present()) result.specular *= at.texture(source.specularTexture, Encoding::Linear).w;
+  if (source.specularColorTexture.present())
+    result.specularColor *= glm::dvec3(at.texture(source.specularColorTexture, Encoding::Srgb));
+  return result;
+}
+
+/// Unit shading normal on the front side: interpolated normal, bent by the normal texture (glTF 2.0, 3.9.3).
+/// Interpolated normals on the far side of the triangle are turned over.
+glm::dvec3 frontShadingNormal(const Attributes& at, const Triangle& triangle) {
+  if (at.primitive.normals.empty()) return triangle.ng;
+  const glm::dmat3 worldFromObject(at.scene.instances[triangle.instance].worldFromObject);
+  glm::dvec3 normal =
+      glm::normalize(glm::transpose(glm::inverse(worldFromObject)) * at.interpolate<3>(at.primitive.normals));
+  if (glm::dot(normal, triangle.ng) < 0) normal = -normal;
+  if (!at.material.normalTexture.present() || at.primitive.tangents.empty()) return normal;
+  const glm::dvec4 source = at.interpolate<4>(at.primitive.tangents);
+  const glm::dvec3 along = worldFromObject * glm::dvec3(source);
+  const glm::dvec3 tangent = glm::normalize(along - normal * glm::dot(normal, along));
+  const double handedness = (source.w < 0 ? -1.0 : 1.0) * (glm::determinant(worldFromObject) < 0 ? -1.0 : 1.0);
+  const glm::dvec3 bitangent = glm::cross(normal, tangent) * handedness;
+  const glm::dvec3 texel = 2.0 * glm::dvec3(at.texture(at.material.normalTexture, Encoding::Linear)) - 1.0;
+  const double scale = at.material.normalTexture.scale;
+  return glm::normalize(scale * texel.x * tangent + scale * texel.y * bitangent + texel.z * normal);
+}
+
+/// A rule of the renderer's surface model: a shading normal that leans away from the viewer is turned towards wo, in
+/// the plane of the two, until its cosine to wo is 0.01, or the geometric normal's where that is less.
+glm::dvec3 turnedToViewer(glm::dvec3 ns, glm::dvec3 ng, glm::dvec3 wo) {
+  const double least = std::min(0.01, glm::dot(ng, wo));
+  if (glm::dot(ns, wo) >= least) return ns;
+  const glm::dvec3 across = ns - glm::dot(ns, wo) * wo;
+  const double length = glm::length(across);
+  if (length < 1e-4) return ng;
+  return glm::normalize(least * wo + std::sqrt(1 - least * least) / length * across);
+}
+
+} // namespace
+
+SurfacePoint evaluateSurface(const Scene& scene, const Triangle& triangle, const Hit& hit, glm::dvec3 wo) {
+  const Attributes at(scene, triangle, hit);
+  SurfacePoint point;
+  point.position = triangle.v0 + hit.b1 * triangle.edge1 + hit.b2 * triangle.edge2;
+  const double side = glm::dot(triangle.ng, wo) < 0 ? -1 : 1;
+  point.ng = side * triangle.ng;
+  point.unlit = at.material.unlit;
+  if (point.unlit) {
+    point.emission = glm::dvec3(at.baseColor());
+    return point;
+  }
+  point.ns = turnedToViewer(side * frontShadingNormal(at, triangle), point.ng, wo);
+  point.emission = evaluateEmission(scene, triangle, hit, wo);
+  point.material = evaluateMaterial(at);
+  return point;
+}
+
+glm::dvec3 evaluateEmission(const Scene& scene, const Triangle& triangle, const Hit& hit, glm::dvec3 wo) {
+  const Attributes at(scene, triangle, hit);
+  if (at.material.unlit || at.material.emissive == glm::vec3(0)) return glm::dvec3(0);
+  if (!at.material.doubleSided && glm::dot(triangle.ng, wo) <= 0) return glm::dvec3(0);
+  const glm::dvec3 factor(at.material.emissive);
+  if (!at.material.emissiveTexture.present()) return factor;
+  return factor * glm::dvec3(at.texture(at.material.emissiveTexture, Encoding::Srgb));
+}
+
+double evaluateCoverage(const Scene& scene, const Triangle& triangle, const Hit& hit) {
+  if (triangle.opaque) return 1;
+  const Attributes at(scene, triangle, hit);
+  const double alpha = at.baseColor().w;
+  if (at.material.alphaMode == AlphaMode::Mask) return alpha >= at.material.alphaCutoff ? 1 : 0;
+  return std::clamp(alpha, 0.0, 1.0);
+}
+
+} // namespace isophote::oracle
