@@ -1,2 +1,0 @@
-#include "upload/pack_scene.hpp"
-#include <gtest/gtest.h>
