@@ -32,12 +32,10 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
   if (wiLocal.z <= 0.0 || dot(surface.ng, light.wi) <= 0.0) return;
-  const vec3 f = evalBsdf(scene, material.bsdf, woLocal, wiLocal);
+  const BsdfValue bsdf = evaluateBsdf(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
-  if (kLightSampling == 0u && !light.delta) {
-    weight = misWeight(light.pdfSolidAngle, pdfBsdf(scene, material.bsdf, woLocal, wiLocal));
-  }
-  const vec3 contribution = beta * f * light.radiance * (weight / light.pdfSolidAngle);
+  if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
+  const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
 
   // Direction and length are taken between the offset points: at grazing angles the surface point's own would pass below

@@ -1,0 +1,2 @@
+#include "upload/pack_scene.hpp"
+#include <gtest/gtest.h>
