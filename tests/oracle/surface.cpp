@@ -1,6 +1,7 @@
 #include "oracle/surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "oracle/texture_lookup.hpp"
@@ -48,7 +49,7 @@ struct Attributes {
 SurfaceMaterial evaluateMaterial(const Attributes& at) {
   SurfaceMaterial result;
   const Material& source = at.material;
-  result.baseColor = glm::dvec3(at.baseColor());
+  result.baseColor = glm::clamp(glm::dvec3(at.baseColor()), 0.0, 1.0); // a reflectance, whatever the vertex colors say
   result.metallic = source.metallic;
   result.roughness = source.roughness;
   result.ior = source.ior;
@@ -66,19 +67,33 @@ SurfaceMaterial evaluateMaterial(const Attributes& at) {
 }
 
 /// Unit shading normal on the front side: interpolated normal, bent by the normal texture (glTF 2.0, 3.9.3).
+/// Interpolated normals on the far side of the triangle are turned over.
 glm::dvec3 frontShadingNormal(const Attributes& at, const Triangle& triangle) {
   if (at.primitive.normals.empty()) return triangle.ng;
   const glm::dmat3 worldFromObject(at.scene.instances[triangle.instance].worldFromObject);
-  const glm::dvec3 normal =
+  glm::dvec3 normal =
       glm::normalize(glm::transpose(glm::inverse(worldFromObject)) * at.interpolate<3>(at.primitive.normals));
+  if (glm::dot(normal, triangle.ng) < 0) normal = -normal;
   if (!at.material.normalTexture.present() || at.primitive.tangents.empty()) return normal;
   const glm::dvec4 source = at.interpolate<4>(at.primitive.tangents);
-  const glm::dvec3 tangent = glm::normalize(worldFromObject * glm::dvec3(source));
+  const glm::dvec3 along = worldFromObject * glm::dvec3(source);
+  const glm::dvec3 tangent = glm::normalize(along - normal * glm::dot(normal, along));
   const double handedness = (source.w < 0 ? -1.0 : 1.0) * (glm::determinant(worldFromObject) < 0 ? -1.0 : 1.0);
   const glm::dvec3 bitangent = glm::cross(normal, tangent) * handedness;
   const glm::dvec3 texel = 2.0 * glm::dvec3(at.texture(at.material.normalTexture, Encoding::Linear)) - 1.0;
   const double scale = at.material.normalTexture.scale;
   return glm::normalize(scale * texel.x * tangent + scale * texel.y * bitangent + texel.z * normal);
+}
+
+/// A rule of the renderer's surface model: a shading normal that leans away from the viewer is turned towards wo, in
+/// the plane of the two, until its cosine to wo is 0.01, or the geometric normal's where that is less.
+glm::dvec3 turnedToViewer(glm::dvec3 ns, glm::dvec3 ng, glm::dvec3 wo) {
+  const double least = std::min(0.01, glm::dot(ng, wo));
+  if (glm::dot(ns, wo) >= least) return ns;
+  const glm::dvec3 across = ns - glm::dot(ns, wo) * wo;
+  const double length = glm::length(across);
+  if (length < 1e-4) return ng;
+  return glm::normalize(least * wo + std::sqrt(1 - least * least) / length * across);
 }
 
 } // namespace
@@ -94,7 +109,7 @@ SurfacePoint evaluateSurface(const Scene& scene, const Triangle& triangle, const
     point.emission = glm::dvec3(at.baseColor());
     return point;
   }
-  point.ns = side * frontShadingNormal(at, triangle);
+  point.ns = turnedToViewer(side * frontShadingNormal(at, triangle), point.ng, wo);
   point.emission = evaluateEmission(scene, triangle, hit, wo);
   point.material = evaluateMaterial(at);
   return point;

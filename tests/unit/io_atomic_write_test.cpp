@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "io/atomic_file.hpp"
 #include "isophote/error.hpp"
 #include "unit/io_fixture.hpp"
 
@@ -69,6 +70,24 @@ TEST_F(AtomicWrite, FailsAtEverySizeBelowTheWholeFile) {
     const FileSizeLimit limit(bytes);
     EXPECT_THROW(writeExr(path("a.exr"), image), OutputError) << bytes << " of " << whole;
   }
+  EXPECT_EQ(fileCount(), 1u);
+}
+
+// OpenEXR writes its table of offsets in a destructor, which swallows exceptions.
+TEST_F(AtomicWrite, ThrowsASwallowedFailureAgainAtTheEnd) {
+  writeBytes(path("a"), "previous");
+  {
+    io::AtomicFile file(path("a"));
+    file.write("begin", 5);
+    {
+      const FileSizeLimit limit(8);
+      EXPECT_THROW(file.write("too long", 8), OutputError);
+    }
+    file.seek(0);
+    file.write("again", 5);
+    EXPECT_THROW(file.commit(), OutputError);
+  }
+  EXPECT_EQ(readBytes(path("a")), "previous");
   EXPECT_EQ(fileCount(), 1u);
 }
 

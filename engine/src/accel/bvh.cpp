@@ -35,13 +35,6 @@ struct Range {
   Box box;
 };
 
-// Half the surface area, in double: differences and products of any finite floats stay finite.
-double halfArea(const Box& box) {
-  if (box.lower.x > box.upper.x) return 0;
-  const glm::dvec3 extent = glm::dvec3(box.upper) - glm::dvec3(box.lower);
-  return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
-}
-
 // Halved before the sum: the sum of two finite floats may overflow.
 glm::vec3 center(const Box& box) { return 0.5f * box.lower + 0.5f * box.upper; }
 
@@ -262,6 +255,12 @@ double expectedCost(const std::vector<BvhNode>& nodes, const Box& bounds, const 
 }
 
 } // namespace
+
+double halfArea(const Box& box) {
+  if (box.lower.x > box.upper.x) return 0;
+  const glm::dvec3 extent = glm::dvec3(box.upper) - glm::dvec3(box.lower);
+  return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+}
 
 Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options) {
   std::vector<Item> items(boxes.size());

@@ -14,9 +14,18 @@ namespace isophote {
 struct Box {
   glm::vec3 lower{3.402823466e38f};
   glm::vec3 upper{-3.402823466e38f};
-  void grow(glm::vec3 point) { lower = glm::min(lower, point); upper = glm::max(upper, point); }
-  void grow(const Box& other) { lower = glm::min(lower, other.lower); upper = glm::max(upper, other.upper); }
+  void grow(glm::vec3 point) {
+    lower = glm::min(lower, point);
+    upper = glm::max(upper, point);
+  }
+  void grow(const Box& other) {
+    lower = glm::min(lower, other.lower);
+    upper = glm::max(upper, other.upper);
+  }
 };
+
+/// Half the surface area, in double so that no finite box overflows; 0 for an empty box.
+[[nodiscard]] double halfArea(const Box& box);
 
 /// Nodes with indices relative to this BVH (root 0, leaf items index `order`). Never empty: no boxes give one node with
 /// two absent children; one leaf gives a node whose second child is absent.

@@ -23,11 +23,11 @@ struct PackedTexture {
 };
 
 struct BvhStatistics {
-  uint64_t triangles = 0;         ///< stored once, however often instanced
+  uint64_t triangles = 0; ///< stored once, however often instanced
   uint64_t instancedTriangles = 0;
   uint64_t nodes = 0;
-  double sahCost = 0;             ///< of the top level plus its instances' mesh BVHs, area-weighted
-  uint32_t maxDepth = 0;          ///< top level plus the deepest mesh
+  double sahCost = 0;    ///< of the top level plus its instances' mesh BVHs, area-weighted
+  uint32_t maxDepth = 0; ///< top level plus the deepest mesh
   double milliseconds = 0;
 };
 

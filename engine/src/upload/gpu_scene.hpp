@@ -1,0 +1,26 @@
+// What GpuScene owns, for the renderer.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gpu/buffer.hpp"
+#include "gpu/texture_array.hpp"
+#include "isophote/gpu_scene.hpp"
+
+namespace isophote {
+
+struct GpuScene::Impl {
+  std::vector<gpu::Buffer> buffers; ///< those that exist; `view` holds their addresses
+  gpu::Buffer view;                 ///< one gpu::SceneView
+  gpu::TextureArray textures;
+  FeatureSet features;
+  SceneStatistics statistics;
+  glm::dvec3 worldOrigin{0}; ///< what device positions are relative to
+  glm::dvec3 worldCenter{0}; ///< of the bounds, absolute
+  double worldRadius = 1;
+  float emitterScale = 1;
+};
+
+} // namespace isophote

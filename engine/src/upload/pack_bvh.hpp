@@ -1,0 +1,20 @@
+// Builds a BVH and books the time.
+#pragma once
+
+#include <chrono>
+#include <span>
+
+#include "accel/bvh.hpp"
+#include "upload/pack_scene.hpp"
+
+namespace isophote {
+
+[[nodiscard]] inline Bvh buildTimedBvh(std::span<const Box> boxes, uint32_t maxLeafItems, BvhStatistics& statistics) {
+  const auto start = std::chrono::steady_clock::now();
+  Bvh bvh = buildBvh(boxes, {.maxLeafItems = maxLeafItems});
+  statistics.milliseconds +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return bvh;
+}
+
+} // namespace isophote

@@ -1,0 +1,196 @@
+#include "upload/pack_geometry.hpp"
+
+#include "isophote/error.hpp"
+#include "upload/pack_bvh.hpp"
+#include "upload/pack_instances.hpp"
+#include "upload/pack_texels.hpp"
+
+#include <map>
+#include <string>
+
+namespace isophote {
+namespace {
+
+// shaders/geometry/traverse.glsl keeps a node or item index and an item count in one word of 29 + 3 bits.
+constexpr uint64_t kMaxTraversalItems = (1ull << 29) - 1;
+constexpr uint32_t kMaxLeafTriangles = 4;
+static_assert(kMaxLeafTriangles < 8);
+
+void requireFits(uint64_t count, uint64_t limit, const char* what) {
+  if (count <= limit) return;
+  throw LimitError("the scene has " + std::to_string(count) + " " + what + "; the device format holds at most " +
+                   std::to_string(limit));
+}
+
+// Appends values and returns where they start, kInvalidIndex where there are none.
+template <class T> uint32_t append(std::vector<T>& all, const std::vector<T>& values, bool wanted, const char* what) {
+  if (values.empty() || !wanted) return gpu::kInvalidIndex;
+  const auto first = static_cast<uint32_t>(all.size());
+  requireFits(all.size() + values.size(), gpu::kInvalidIndex, what);
+  all.insert(all.end(), values.begin(), values.end());
+  return first;
+}
+
+class MeshPacker {
+public:
+  MeshPacker(const Scene& scene, const PackedMaterials& materials, PackedScene& packed)
+      : scene_(scene), materials_(materials), packed_(packed) {}
+
+  // Appends the mesh; its BVH nodes go to `nodes` with indices relative to that array.
+  PackedMesh add(const Mesh& mesh, std::vector<gpu::BvhNode>& nodes) {
+    PackedMesh result;
+    std::vector<gpu::BvhTriangle> triangles;
+    std::vector<uint32_t> primitiveOf; // per triangle
+    uint32_t emissive = 0;
+    for (uint32_t i = 0; i < mesh.primitives.size(); ++i) {
+      const Primitive& primitive = mesh.primitives[i];
+      if (primitive.indices.empty()) continue;
+      gpu::Geometry geometry = attributes(primitive);
+      const uint32_t flags = triangleFlags(primitive);
+      if (flags & gpu::kTriangleEmissive) {
+        geometry.firstEmissive = emissive;
+        emissive += static_cast<uint32_t>(primitive.indices.size() / 3);
+      }
+      addTriangles(primitive, flags, triangles);
+      primitiveOf.resize(triangles.size(), i);
+      packed_.geometries.push_back(geometry);
+    }
+    if (triangles.empty()) return result;
+    buildTree(triangles, result, nodes);
+    result.emitters = emitters(primitiveOf, emissive, result);
+    return result;
+  }
+
+private:
+  gpu::Geometry attributes(const Primitive& primitive) {
+    const Material& material = scene_.materials[primitive.material];
+    const uint32_t uvSets = materials_.uvSets[primitive.material];
+    gpu::Geometry geometry{};
+    geometry.firstNormal = append(packed_.normals, primitive.normals, true, "normals");
+    geometry.firstTangent = append(packed_.tangents, primitive.tangents, material.normalTexture.present(), "tangents");
+    geometry.firstColor = append(packed_.colors, primitive.colors, true, "vertex colors");
+    bool any = !primitive.normals.empty() || geometry.firstTangent != gpu::kInvalidIndex || !primitive.colors.empty();
+    for (uint32_t set = 0; set < kMaxUvSets; ++set) {
+      geometry.firstUv[set] = append(packed_.uvs, primitive.uvs[set], uvSets >> set & 1u, "texture coordinates");
+      any = any || geometry.firstUv[set] != gpu::kInvalidIndex;
+    }
+    geometry.firstIndex = append(packed_.indices, primitive.indices, any, "indices");
+    geometry.material = materials_.record[primitive.material];
+    geometry.firstEmissive = gpu::kInvalidIndex;
+    return geometry;
+  }
+
+  void addTriangles(const Primitive& primitive, uint32_t flags, std::vector<gpu::BvhTriangle>& triangles) const {
+    const auto geometry = static_cast<uint32_t>(packed_.geometries.size());
+    for (uint32_t i = 0; i < primitive.indices.size() / 3; ++i) {
+      const uint32_t* corner = &primitive.indices[3 * static_cast<size_t>(i)];
+      triangles.push_back({primitive.positions[corner[0]], i, primitive.positions[corner[1]], geometry,
+                           primitive.positions[corner[2]], flags});
+    }
+  }
+
+  void buildTree(const std::vector<gpu::BvhTriangle>& triangles, PackedMesh& mesh, std::vector<gpu::BvhNode>& nodes) {
+    std::vector<Box> boxes(triangles.size());
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      for (const glm::vec3& v : {triangles[i].v0, triangles[i].v1, triangles[i].v2}) boxes[i].grow(v);
+    }
+    Bvh bvh = buildTimedBvh(boxes, kMaxLeafTriangles, packed_.bvh);
+    const auto firstTriangle = static_cast<uint32_t>(packed_.triangles.size());
+    mesh.rootNode = static_cast<uint32_t>(nodes.size());
+    mesh.triangleCount = static_cast<uint32_t>(triangles.size());
+    mesh.maxDepth = bvh.maxDepth;
+    mesh.sahCost = bvh.sahCost;
+    mesh.bounds = bvh.bounds;
+    for (gpu::BvhNode& node : bvh.nodes) {
+      node.child0 += node.count0 == 0 ? mesh.rootNode : firstTriangle;
+      node.child1 += node.count1 == 0 ? mesh.rootNode : firstTriangle;
+    }
+    nodes.insert(nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
+    for (const uint32_t item : bvh.order) packed_.triangles.push_back(triangles[item]);
+    leafOrder_ = std::move(bvh.order);
+  }
+
+  // Emitters in the order of light indices, from triangles in leaf order.
+  [[nodiscard]] std::vector<MeshEmitter> emitters(const std::vector<uint32_t>& primitiveOf, uint32_t count,
+                                                  const PackedMesh& mesh) const {
+    std::vector<MeshEmitter> result(count);
+    const size_t first = packed_.triangles.size() - mesh.triangleCount;
+    for (size_t i = first; count > 0 && i < packed_.triangles.size(); ++i) {
+      const gpu::BvhTriangle& triangle = packed_.triangles[i];
+      if (!(triangle.flags & gpu::kTriangleEmissive)) continue;
+      const uint32_t at = packed_.geometries[triangle.geometry].firstEmissive + triangle.primitiveIndex;
+      result[at] = {static_cast<uint32_t>(i), primitiveOf[leafOrder_[i - first]], triangle.primitiveIndex};
+    }
+    return result;
+  }
+
+  uint32_t triangleFlags(const Primitive& primitive) {
+    const Material& material = scene_.materials[primitive.material];
+    return (isCertainlyOpaque(material, primitive) ? 0 : gpu::kTriangleHasAlpha) |
+           (isEmitter(material) ? gpu::kTriangleEmissive : 0);
+  }
+
+  // Whether alpha is 1 wherever the primitive can be hit.
+  bool isCertainlyOpaque(const Material& material, const Primitive& primitive) {
+    if (material.alphaMode == AlphaMode::Opaque) return true;
+    if (material.alphaMode == AlphaMode::Mask && material.alphaCutoff > 1) return false;
+    if (material.baseColor.a < 1) return false;
+    for (const glm::vec4& color : primitive.colors) {
+      if (color.a < 1) return false;
+    }
+    if (!material.baseColorTexture.present()) return true;
+    const uint32_t image = scene_.textures[static_cast<size_t>(material.baseColorTexture.texture)].image;
+    const auto [entry, isNew] = opaqueImages_.try_emplace(image, false);
+    if (isNew) entry->second = isOpaqueImage(scene_.images[image]);
+    return entry->second;
+  }
+
+  const Scene& scene_;
+  const PackedMaterials& materials_;
+  PackedScene& packed_;
+  std::vector<uint32_t> leafOrder_; // of the last tree
+  std::map<uint32_t, bool> opaqueImages_;
+};
+
+void requireTriangleIndices(const Scene& scene, const std::vector<bool>& meshUsed) {
+  uint64_t triangles = 0;
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (!meshUsed[i]) continue;
+    for (const Primitive& primitive : scene.meshes[i].primitives) triangles += primitive.indices.size() / 3;
+  }
+  // A binary tree over n leaves has n - 1 inner nodes, and the top level adds fewer than one per instance.
+  requireFits(triangles, kMaxTraversalItems / 2, "triangles");
+  requireFits(scene.instances.size(), kMaxTraversalItems / 4, "instances");
+}
+
+} // namespace
+
+std::vector<bool> usedMeshes(const Scene& scene) {
+  std::vector<bool> used(scene.meshes.size(), false);
+  for (const Instance& instance : scene.instances) used[instance.mesh] = true;
+  return used;
+}
+
+PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUsed, const PackedMaterials& materials,
+                            PackedScene& packed) {
+  requireTriangleIndices(scene, meshUsed);
+  PackedGeometry result;
+  result.meshes.resize(scene.meshes.size());
+  std::vector<gpu::BvhNode> meshNodes;
+  MeshPacker packer(scene, materials, packed);
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (meshUsed[i]) result.meshes[i] = packer.add(scene.meshes[i], meshNodes);
+  }
+  result.sceneInstances = packInstances(scene, result.meshes, packed);
+  const auto topNodes = static_cast<uint32_t>(packed.nodes.size());
+  for (gpu::BvhNode& node : meshNodes) {
+    if (node.count0 == 0) node.child0 += topNodes;
+    if (node.count1 == 0) node.child1 += topNodes;
+  }
+  packed.nodes.insert(packed.nodes.end(), meshNodes.begin(), meshNodes.end());
+  packed.bvh.triangles = packed.triangles.size();
+  packed.bvh.nodes = packed.nodes.size();
+  return result;
+}
+
+} // namespace isophote

@@ -1,0 +1,44 @@
+// Triangles, attributes and both levels of BVH.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/bvh.hpp"
+#include "upload/pack_materials.hpp"
+#include "upload/pack_scene.hpp"
+
+namespace isophote {
+
+/// Where an emissive triangle of a mesh is.
+struct MeshEmitter {
+  uint32_t triangle = 0;       ///< index into PackedScene::triangles
+  uint32_t primitive = 0;      ///< of the Scene's mesh
+  uint32_t primitiveIndex = 0; ///< triangle number within it
+};
+
+/// What stands in PackedScene for one mesh of the Scene.
+struct PackedMesh {
+  uint32_t rootNode = gpu::kInvalidIndex; ///< relative to the first mesh node; kInvalidIndex: unused or no triangles
+  uint32_t triangleCount = 0;
+  uint32_t maxDepth = 0;
+  double sahCost = 0;
+  Box bounds;
+  std::vector<MeshEmitter> emitters; ///< by primitive, then triangle number
+};
+
+struct PackedGeometry {
+  std::vector<PackedMesh> meshes;       ///< as Scene::meshes
+  std::vector<uint32_t> sceneInstances; ///< per InstanceRecord: its index in Scene::instances
+};
+
+/// Meshes that an instance refers to.
+[[nodiscard]] std::vector<bool> usedMeshes(const Scene& scene);
+
+/// Fills nodes, triangles, geometries, attributes, instances (without firstEmitter) and the BVH statistics.
+/// Reads packed.worldOrigin.
+/// @throws LimitError where an index of the device format would overflow
+[[nodiscard]] PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUsed,
+                                          const PackedMaterials& materials, PackedScene& packed);
+
+} // namespace isophote

@@ -1,0 +1,17 @@
+// The top level: placed meshes and the BVH over them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "upload/pack_geometry.hpp"
+
+namespace isophote {
+
+/// Fills packed.instances in the leaf order of the top-level BVH, puts its nodes at the front of packed.nodes (which
+/// must be empty), and completes the BVH statistics. Instances of meshes without triangles are left out.
+/// @return per InstanceRecord: its index in scene.instances
+[[nodiscard]] std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<PackedMesh>& meshes,
+                                                  PackedScene& packed);
+
+} // namespace isophote

@@ -1,0 +1,157 @@
+#include "upload/pack_lights.hpp"
+
+#include "isophote/error.hpp"
+#include "upload/alias_table.hpp"
+#include "upload/environment_density.hpp"
+#include "upload/pack_emission.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace isophote {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double largestComponent(const glm::dvec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
+
+// Collects powers (W, luminance) in the order of light indices and the largest radiance that one event can add.
+class LightPacker {
+public:
+  LightPacker(const Scene& scene, const PackedGeometry& geometry, PackedScene& packed)
+      : scene_(scene), geometry_(geometry), packed_(packed), emission_(scene) {}
+
+  void pack() {
+    addEmissiveTriangles();
+    for (const PunctualLight& light : scene_.lights) addPunctual(light);
+    if (scene_.environment) addEnvironment(*scene_.environment);
+    addUnlit();
+    packed_.lightAlias = buildAliasTable(powers_);
+    packed_.emitterScale = largest_ > 0 ? powerOfTwoAbove(largest_) : 1.0f;
+  }
+
+private:
+  // Clamped so that neither it nor its inverse leaves the range of float.
+  static float powerOfTwoAbove(double value) {
+    return static_cast<float>(std::exp2(std::clamp(std::ceil(std::log2(value)), -100.0, 100.0)));
+  }
+
+  void addEmissiveTriangles() {
+    const std::vector<std::vector<double>> luminances = meshLuminances();
+    uint64_t total = 0;
+    for (const gpu::InstanceRecord& instance : packed_.instances)
+      total += geometry_.meshes[instance.mesh].emitters.size();
+    if (total + scene_.lights.size() + 1 >= gpu::kInvalidIndex)
+      throw LimitError("the scene has " + std::to_string(total) +
+                       " emissive triangles, instances counted; light indices have 32 bits");
+    packed_.emissiveTriangles.reserve(total);
+    powers_.reserve(total + scene_.lights.size() + 1);
+    for (uint32_t i = 0; i < packed_.instances.size(); ++i) {
+      gpu::InstanceRecord& instance = packed_.instances[i];
+      const PackedMesh& mesh = geometry_.meshes[instance.mesh];
+      if (mesh.emitters.empty()) continue;
+      instance.firstEmitter = static_cast<uint32_t>(packed_.emissiveTriangles.size());
+      const glm::dmat3 worldFromObject(scene_.instances[geometry_.sceneInstances[i]].worldFromObject);
+      for (size_t k = 0; k < mesh.emitters.size(); ++k) {
+        const MeshEmitter& emitter = mesh.emitters[k];
+        packed_.emissiveTriangles.push_back({i, emitter.triangle});
+        powers_.push_back(kPi * luminances[instance.mesh][k] * worldArea(worldFromObject, emitter.triangle));
+      }
+    }
+  }
+
+  // Mean luminance of what each emitter of each mesh sends out, both sides counted.
+  std::vector<std::vector<double>> meshLuminances() {
+    std::vector<std::vector<double>> result(geometry_.meshes.size());
+    for (size_t i = 0; i < result.size(); ++i) {
+      for (const MeshEmitter& emitter : geometry_.meshes[i].emitters) {
+        const Primitive& primitive = scene_.meshes[i].primitives[emitter.primitive];
+        const Material& material = scene_.materials[primitive.material];
+        const double sides = material.doubleSided ? 2 : 1;
+        result[i].push_back(sides * emission_.meanLuminance(material, primitive, emitter.primitiveIndex));
+        largest_ = std::max(largest_, largestComponent(emission_.largestRadiance(material)));
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] double worldArea(const glm::dmat3& worldFromObject, uint32_t triangle) const {
+    const gpu::BvhTriangle& t = packed_.triangles[triangle];
+    const glm::dvec3 e1 = worldFromObject * (glm::dvec3(t.v1) - glm::dvec3(t.v0));
+    const glm::dvec3 e2 = worldFromObject * (glm::dvec3(t.v2) - glm::dvec3(t.v0));
+    return 0.5 * glm::length(glm::cross(e1, e2));
+  }
+
+  void addPunctual(const PunctualLight& light) {
+    gpu::PunctualLightRecord record{};
+    record.position = glm::vec3(light.position - packed_.worldOrigin);
+    record.kind = static_cast<uint32_t>(light.kind);
+    record.direction = glm::vec3(light.direction);
+    record.range = light.range;
+    record.intensity = light.intensity;
+    record.cosInner = static_cast<float>(std::cos(static_cast<double>(light.innerConeAngle)));
+    record.cosOuter = static_cast<float>(std::cos(static_cast<double>(light.outerConeAngle)));
+    packed_.punctualLights.push_back(record);
+
+    const double squaredRadius = packed_.worldRadius * packed_.worldRadius;
+    const double intensity = luminance(light.intensity);
+    switch (light.kind) {
+    case LightKind::Point:
+      powers_.push_back(4 * kPi * intensity);
+      break;
+    case LightKind::Spot:
+      // The falloff's square root is linear in the cosine: its integral between the cones is a third.
+      powers_.push_back(2 * kPi * intensity *
+                        ((1 - record.cosInner) + std::max(0.0f, record.cosInner - record.cosOuter) / 3.0));
+      break;
+    case LightKind::Directional:
+      powers_.push_back(kPi * squaredRadius * intensity);
+      break;
+    }
+    // Reflected radiance is about the irradiance; of a point light that at the distance of one scene radius.
+    const double irradiance = largestComponent(light.intensity);
+    largest_ = std::max(largest_, light.kind == LightKind::Directional ? irradiance : irradiance / squaredRadius);
+  }
+
+  void addEnvironment(const Environment& environment) {
+    EnvironmentDensity density = environmentDensity(environment);
+    const double power = kPi * packed_.worldRadius * packed_.worldRadius * density.power * environment.intensity;
+    if (!(power > 0)) return;
+    packed_.environmentWidth = environment.width;
+    packed_.environmentHeight = environment.height;
+    packed_.environmentCosRotation = static_cast<float>(std::cos(environment.rotation));
+    packed_.environmentSinRotation = static_cast<float>(std::sin(environment.rotation));
+    packed_.environmentMarginal = std::move(density.marginal);
+    packed_.environmentConditional = std::move(density.conditional);
+    packed_.environmentPixels = environment.pixels;
+    for (glm::vec3& pixel : packed_.environmentPixels) {
+      pixel *= environment.intensity;
+      largest_ = std::max(largest_, largestComponent(pixel));
+    }
+    powers_.push_back(power);
+  }
+
+  // Unlit surfaces are no lights, but the camera sees them shine.
+  void addUnlit() {
+    for (const gpu::MaterialRecord& material : packed_.materials) {
+      if (material.flags & gpu::kMaterialUnlit)
+        largest_ = std::max(largest_, largestComponent(glm::dvec3(material.baseColor)));
+    }
+  }
+
+  const Scene& scene_;
+  const PackedGeometry& geometry_;
+  PackedScene& packed_;
+  EmissionEstimator emission_;
+  std::vector<double> powers_;
+  double largest_ = 0;
+};
+
+} // namespace
+
+void packLights(const Scene& scene, const PackedGeometry& geometry, PackedScene& packed) {
+  LightPacker(scene, geometry, packed).pack();
+}
+
+} // namespace isophote

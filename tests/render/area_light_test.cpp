@@ -1,0 +1,86 @@
+// Irradiance from polygons against Lambert's formula.
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "support/render.hpp"
+#include "support/scenes.hpp"
+
+namespace isophote {
+namespace {
+
+using namespace isophote::test;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Irradiance at the origin with normal +y from a polygon of radiance 1 above the horizon (Lambert 1760): half the sum
+/// of edge angles times the cosine between the edge's plane normal and the receiver's.
+double polygonIrradiance(const std::vector<glm::dvec3>& vertices) {
+  double sum = 0;
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const glm::dvec3 a = glm::normalize(vertices[i]), b = glm::normalize(vertices[(i + 1) % vertices.size()]);
+    sum += std::acos(glm::clamp(glm::dot(a, b), -1.0, 1.0)) * glm::normalize(glm::cross(a, b)).y;
+  }
+  return std::abs(sum) / 2;
+}
+
+/// Reflectance 1: radiance is irradiance / pi. 64 pixels of the same tiny view are the replicates.
+Image renderSensor(const Scene& scene, glm::dvec3 point, LightSampling mode, uint32_t samples) {
+  return renderImage(scene, sensorAt(point), 8, 8, samples,
+                     {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 22}});
+}
+
+TEST(RenderAreaLight, Test22SquareGivesLambertsFormFactorCentredAndAtItsCorner) {
+  const Scene scene = squareLightOverFloor(2);
+  EXPECT_NEAR(polygonIrradiance({{-.5, 1, -.5}, {.5, 1, -.5}, {.5, 1, .5}, {-.5, 1, .5}}), 0.752275, 1e-6);
+  for (const auto mode : {LightSampling::Mis, LightSampling::LightsOnly}) {
+    EXPECT_TRUE(pixelMeanIs(renderSensor(scene, {0, 0, 0}, mode, 4096), "R", 2 * 0.2394564705));
+    EXPECT_TRUE(pixelMeanIs(renderSensor(scene, {0.5, 0, 0.5}, mode, 4096), "R", 2 * 0.1385323412));
+  }
+  EXPECT_TRUE(
+      pixelMeanIs(renderSensor(scene, {0, 0, 0}, LightSampling::BsdfOnly, 16384), "R", 2 * 0.2394564705, 0.012));
+}
+
+TEST(RenderAreaLight, Test22RandomTrianglesGiveLambertsFormFactor) {
+  std::mt19937_64 engine(22);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 5; ++i) {
+    std::array<glm::vec3, 3> vertices;
+    for (glm::vec3& vertex : vertices)
+      vertex = {1.5 * uniform(engine), 1.2 + 0.6 * uniform(engine), 1.5 * uniform(engine)};
+    // The front must face the floor: the origin lies on the side of the normal.
+    if (glm::dot(glm::cross(vertices[1] - vertices[0], vertices[2] - vertices[0]), -vertices[0]) < 0)
+      std::swap(vertices[1], vertices[2]);
+    Scene scene = lambertFloor(glm::vec3(1), 2);
+    Primitive light;
+    light.positions = {vertices.begin(), vertices.end()};
+    light.indices = {0, 1, 2};
+    light.material = addMaterial(scene, emitter({3, 2, 1}));
+    addPrimitive(scene, light);
+    const double expected = polygonIrradiance({vertices[0], vertices[1], vertices[2]}) / kPi;
+    const Image image = renderSensor(scene, {0, 0, 0}, LightSampling::Mis, 2048);
+    SCOPED_TRACE(i);
+    EXPECT_TRUE(pixelMeanIs(image, "R", 3 * expected, 0.006));
+    EXPECT_TRUE(pixelMeanIs(image, "B", expected, 0.006));
+  }
+}
+
+TEST(RenderAreaLight, BackOfASingleSidedLightIsDarkAndDoubleSidedLightsShineBothWays) {
+  for (const bool doubleSided : {false, true}) {
+    Scene scene = squareLightOverFloor(2);
+    std::swap(scene.meshes[1].primitives[0].indices[1], scene.meshes[1].primitives[0].indices[2]);
+    std::swap(scene.meshes[1].primitives[0].indices[4], scene.meshes[1].primitives[0].indices[5]);
+    scene.materials[1].doubleSided = doubleSided;
+    const Image image = renderSensor(scene, {0, 0, 0}, LightSampling::Mis, 4096);
+    if (doubleSided) {
+      EXPECT_TRUE(pixelMeanIs(image, "R", 2 * 0.2394564705));
+    } else {
+      for (const float value : plane(image, "R")) ASSERT_EQ(value, 0);
+    }
+  }
+}
+
+} // namespace
+} // namespace isophote

@@ -1,0 +1,61 @@
+// The Cornell box against the double-precision tracer, and the three ways of finding lights against each other.
+#include <gtest/gtest.h>
+
+#include "support/render.hpp"
+#include "support/scenes.hpp"
+
+namespace isophote {
+namespace {
+
+using namespace isophote::test;
+
+RenderOptions withEstimator(const EstimatorSettings& estimator) { return {.estimator = estimator}; }
+
+TEST(RenderCornell, Test29EveryPixelMatchesTheReference) {
+  const Scene scene = cornellBox();
+  const auto reference = oracle::renderReference(scene, cornellCamera(), 32, 32, 2048, {.seed = 29});
+  for (const auto sampler : {SamplerKind::Sobol, SamplerKind::Independent}) {
+    const Image image = renderImage(scene, cornellCamera(), 32, 32, 1024,
+                                    withEstimator({.sampler = sampler, .filter = PixelFilter::Box, .seed = 29}));
+    EXPECT_TRUE(sameImage(measured(image), measured(reference), {.powerFloor = 0.005}));
+  }
+}
+
+TEST(RenderCornell, Test29DirectLightMatchesTheReference) {
+  const Scene scene = cornellBox();
+  for (const uint32_t depth : {1u, 2u}) {
+    const auto reference =
+        oracle::renderReference(scene, cornellCamera(), 32, 32, 1024, {.maxDepth = depth, .seed = 2});
+    const Image image = renderImage(scene, cornellCamera(), 32, 32, 512,
+                                    withEstimator({.filter = PixelFilter::Box, .maxDepth = depth, .seed = 2}));
+    EXPECT_TRUE(sameImage(measured(image), measured(reference), {.powerFloor = 0.01}));
+  }
+}
+
+TEST(RenderCornell, Test38ThreeWaysOfFindingLightsAgree) {
+  const auto render = [](LightSampling mode, MisHeuristic heuristic, uint32_t samples) {
+    return measured(renderImage(cornellBox(), cornellCamera(), 16, 16, samples,
+                                withEstimator({.filter = PixelFilter::Box,
+                                               .lightSampling = mode,
+                                               .misHeuristic = heuristic,
+                                               .seed = 38 + static_cast<uint64_t>(mode)})));
+  };
+  const MeasuredImage power = render(LightSampling::Mis, MisHeuristic::Power, 1024);
+  const MeasuredImage balance = render(LightSampling::Mis, MisHeuristic::Balance, 1024);
+  const MeasuredImage lights = render(LightSampling::LightsOnly, MisHeuristic::Power, 1024);
+  const MeasuredImage bsdf = render(LightSampling::BsdfOnly, MisHeuristic::Power, 8192);
+  EXPECT_TRUE(sameImage(power, balance, {.powerFloor = 0.015}));
+  EXPECT_TRUE(sameImage(power, lights, {.powerFloor = 0.015}));
+  EXPECT_TRUE(sameImage(power, bsdf, {.powerFloor = 0.03}));
+  EXPECT_TRUE(sameImage(lights, bsdf, {.powerFloor = 0.03}));
+}
+
+TEST(RenderCornellSlow, Test29FullSizeMatchesTheReference) {
+  const Scene scene = cornellBox();
+  const Image image = renderImage(scene, cornellCamera(), 256, 256, 1024);
+  const auto reference = oracle::renderReference(scene, cornellCamera(), 256, 256, 1024, {.seed = 29});
+  EXPECT_TRUE(sameImage(measured(image), measured(reference), {.powerFloor = 0.001}));
+}
+
+} // namespace
+} // namespace isophote
