@@ -141,7 +141,7 @@ int runBench(const BenchOptions& options) {
   if (whiteEnvironment) asset.environment = Environment{.width = 1, .height = 1, .pixels = {glm::vec3(1)}};
   const View view = chooseView(asset, std::nullopt, kWidth, kHeight);
 
-  const Instance instance;
+  const VulkanInstance instance;
   const Device device(instance, {.selector = options.device});
   const GpuScene scene(device, asset);
   const FilmOptions film{.width = kWidth, .height = kHeight, .aovs = false};

@@ -41,7 +41,7 @@ void printJson(const std::vector<DeviceInfo>& devices) {
 }
 
 int runDevices(bool json) {
-  const Instance instance;
+  const VulkanInstance instance;
   const std::vector<DeviceInfo> devices = instance.devices();
   json ? printJson(devices) : printText(devices);
   const bool usable =

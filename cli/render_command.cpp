@@ -85,7 +85,8 @@ void warnAboutScene(const Scene& scene) {
 void warnAboutStatus(const StatusCounters& status) {
   if (status.total() == 0) return;
   std::string text;
-  for (const auto& [name, count] : statusJson(status).items()) {
+  const auto counters = statusJson(status);
+  for (const auto& [name, count] : counters.items()) {
     if (count.get<uint64_t>() > 0)
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count.get<uint64_t>());
   }
@@ -137,7 +138,7 @@ void describeResult(const RenderOptions& options, const RenderReport& report) {
              report.samplesPerPixel, error, report.seconds.render, fmt::join(options.outputs, ", "));
 }
 
-int finish(const RenderOptions& options, const RenderReport& report, const Instance& instance) {
+int finish(const RenderOptions& options, const RenderReport& report, const VulkanInstance& instance) {
   warnAboutStatus(report.statistics.status);
   const std::vector<std::string> messages = instance.validationMessages();
   for (const std::string& message : messages) printWarning("validation: " + message);
@@ -168,7 +169,7 @@ int runRender(const RenderOptions& options) {
   report.sceneHash = hashFiles(loaded.files);
   report.seconds.load = watch.lap();
 
-  const Instance instance({.validation = options.validation});
+  const VulkanInstance instance({.validation = options.validation});
   const Device device(instance, {.selector = options.device});
   report.device = device.info();
   const GpuScene scene(device, loaded.scene);

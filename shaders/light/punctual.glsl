@@ -2,6 +2,8 @@
 #ifndef ISOPHOTE_LIGHT_PUNCTUAL_GLSL
 #define ISOPHOTE_LIGHT_PUNCTUAL_GLSL
 
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require // of shared/light_types.h
+
 #include "shared/geometry_types.h"
 #include "shared/light_types.h"
 
