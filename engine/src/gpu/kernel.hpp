@@ -27,6 +27,11 @@ struct SpecConstant {
 [[nodiscard]] std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv,
                                                     std::span<const SpecConstant> constants);
 
+/// Decorates every floating-point instruction with NoContraction, as if all of the source were `precise`. Mesa's
+/// compiler otherwise regroups sums and products depending on which of them other code uses too, so that the same
+/// function rounds differently in kernels of different features.
+void keepRounding(std::vector<uint32_t>& spirv);
+
 /// One compute pipeline with its layout. Move-only, named for debuggers.
 class Kernel {
 public:

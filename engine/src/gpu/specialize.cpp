@@ -2,7 +2,9 @@
 
 #include "isophote/error.hpp"
 
+#include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 #include <spirv-tools/optimizer.hpp>
 
@@ -12,7 +14,18 @@ namespace {
 // SPIR-V 1.6: section 2.3 (physical layout), opcodes and modes of section 3.
 constexpr size_t kHeaderWords = 5;
 constexpr uint32_t kOpExecutionMode = 16;
+constexpr uint32_t kOpTypeFirst = 19; // OpTypeVoid; the types follow the annotations
+constexpr uint32_t kOpTypeLast = 39;  // OpTypeForwardPointer
 constexpr uint32_t kOpConstant = 43;
+constexpr uint32_t kOpDecorate = 71;
+constexpr uint32_t kOpFNegate = 127;
+constexpr uint32_t kOpFAdd = 129;
+constexpr uint32_t kOpFSub = 131;
+constexpr uint32_t kOpFMul = 133;
+constexpr uint32_t kOpFDiv = 136;
+constexpr uint32_t kOpFRem = 140; // with OpFMod and the vector and matrix products after it
+constexpr uint32_t kOpDot = 148;
+constexpr uint32_t kDecorationNoContraction = 42;
 constexpr uint32_t kOpExecutionModeId = 331;
 constexpr uint32_t kModeLocalSize = 17;
 constexpr uint32_t kModeLocalSizeId = 38;
@@ -59,6 +72,11 @@ void registerPasses(spvtools::Optimizer& optimizer, std::unordered_map<uint32_t,
       .RegisterPass(spvtools::CreateEliminateDeadConstantPass());
 }
 
+bool isFloatArithmetic(uint32_t opcode) {
+  return opcode == kOpFNegate || opcode == kOpFAdd || opcode == kOpFSub || opcode == kOpFMul || opcode == kOpFDiv ||
+         (opcode >= kOpFRem && opcode <= kOpDot);
+}
+
 } // namespace
 
 std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span<const SpecConstant> constants) {
@@ -81,6 +99,21 @@ std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span
   }
   fixLocalSize(result);
   return result;
+}
+
+void keepRounding(std::vector<uint32_t>& spirv) {
+  std::unordered_set<uint32_t> decorated;
+  std::vector<uint32_t> decorations;
+  size_t firstType = spirv.size();
+  for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
+    const uint32_t opcode = spirv[at] & 0xffffu;
+    if (spirv[at] >> 16 == 0) throw Error("malformed SPIR-V");
+    if (opcode >= kOpTypeFirst && opcode <= kOpTypeLast) firstType = std::min(firstType, at);
+    if (opcode == kOpDecorate && spirv[at + 2] == kDecorationNoContraction) decorated.insert(spirv[at + 1]);
+    if (!isFloatArithmetic(opcode) || decorated.contains(spirv[at + 2])) continue;
+    decorations.insert(decorations.end(), {(3u << 16) | kOpDecorate, spirv[at + 2], kDecorationNoContraction});
+  }
+  spirv.insert(spirv.begin() + static_cast<std::ptrdiff_t>(firstType), decorations.begin(), decorations.end());
 }
 
 } // namespace isophote::gpu
