@@ -116,9 +116,9 @@ TEST(BadInput20, MoreThanTheBudgetIsRefusedWithBothNumbers) {
   asset.json["meshes"][0]["primitives"] = std::vector<Json>(1000, asset.primitive());
   EXPECT_EQ(load(asset, {.maxBufferBytes = 100'000}).meshes.at(0).primitives.size(), 1000u);
   expectRefused<LimitError>(asset, {"/accessors/0: 36 more bytes", "28 of 10000 are left"}, {.maxBufferBytes = 10'000});
-  const std::string rows(64 * 64 * 4, '\1');
-  expectRefused<LimitError>(withImage(png({.width = 64, .height = 64, .rows = rows})),
-                            {"/images/0: 16384 more bytes"}, {.maxBufferBytes = 17'000});
+  // 2 bytes a pixel in the file, 8 decoded.
+  const std::string gray16 = png({.width = 64, .height = 64, .bitDepth = 16, .colorType = 0, .rows = std::string(8192, '\1')});
+  expectRefused<LimitError>(withImage(gray16), {"/images/0: 32768 more bytes"}, {.maxBufferBytes = 17'000});
 }
 
 TEST(BadInput21, RequiredCompressionIsUnsupported) {

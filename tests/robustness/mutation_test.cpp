@@ -94,18 +94,18 @@ std::string swapNumber(std::string bytes, std::mt19937& random) {
   return bytes.replace(offset, length, kNumbers[random() % kNumbers.size()]);
 }
 
-template <class Mutate> void runMutations(const std::string& original, uint32_t seed, int count, const Mutate& mutate) {
+/// @param leastLoaded  damage that always matters would not test much
+template <class Mutate>
+void runMutations(const std::string& original, uint32_t seed, int count, int leastLoaded, const Mutate& mutate) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(survives(folder, original));
   std::mt19937 random(seed);
   int loaded = 0;
   for (int i = 0; i < count; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << i);
     loaded += survives(folder, mutate(original, random));
   }
-  // Damage that never matters, or always, would not test much.
-  EXPECT_GT(loaded, 0);
-  EXPECT_LT(loaded, count);
+  EXPECT_GE(loaded, leastLoaded);
+  EXPECT_LT(loaded, count) << "no damage at all";
 }
 
 /// The JSON with the buffer as a GLB chunk, so that swaps hit JSON only.
@@ -126,22 +126,16 @@ TEST(Mutation, TheUndamagedAssetLoadsWithAllItsParts) {
   EXPECT_EQ(scene.images.size(), 1u);
 }
 
-TEST(Mutation, FlippedBytesOfAGlbAreSurvived) { runMutations(richAsset().glb(), 1, 500, flipBytes); }
+TEST(Mutation, FlippedBytesOfAGlbAreSurvived) { runMutations(richAsset().glb(), 1, 500, 25, flipBytes); }
 
-TEST(Mutation, FlippedBytesOfAGltfAreSurvived) { runMutations(richAsset().gltf(), 2, 300, flipBytes); }
+TEST(Mutation, FlippedBytesOfAGltfAreSurvived) { runMutations(richAsset().gltf(), 2, 300, 15, flipBytes); }
 
-TEST(Mutation, MissingPiecesAreSurvived) { runMutations(richAsset().glb(), 3, 300, cut); }
+// A piece missing from a GLB always contradicts its lengths; most end as such, some hit the JSON first.
+TEST(Mutation, MissingPiecesAreSurvived) {
+  runMutations(richAsset().glb(), 3, 150, 0, cut);
+  runMutations(richAsset().gltf(), 5, 150, 0, cut);
+}
 
 TEST(Mutation, SwappedNumbersAreSurvived) {
-  const std::string text = richAsset().json.dump();
-  const TemporaryFolder folder;
-  std::mt19937 random(4);
-  int loaded = 0;
-  constexpr int kCount = 900;
-  for (int i = 0; i < kCount; ++i) {
-    SCOPED_TRACE(testing::Message() << "case " << i);
-    loaded += survives(folder, glbWithNumberSwapped(text, random));
-  }
-  EXPECT_GT(loaded, kCount / 20);
-  EXPECT_LT(loaded, kCount);
+  runMutations(richAsset().json.dump(), 4, 900, 45, glbWithNumberSwapped);
 }
