@@ -183,9 +183,9 @@ TEST(BadInput06, UrisThatLeaveTheFolderAreRefused) {
   EXPECT_EQ(loadFrom("./data.bin", false).instances.size(), 1u);
   fs::create_symlink(secret, outer.path() / "inner/link.bin");
   fs::create_directory_symlink(outer.path(), outer.path() / "inner/up");
-  for (const std::string& uri : {std::string("../secret.bin"), std::string("%2e%2e%2fsecret.bin"),
-                                 std::string("x/../../secret.bin"), secret.string(), "file://" + secret.string(),
-                                 std::string("link.bin"), std::string("up/secret.bin")}) {
+  for (const std::string& uri :
+       {std::string("../secret.bin"), std::string("%2e%2e%2fsecret.bin"), std::string("x/../../secret.bin"),
+        secret.string(), "file://" + secret.string(), std::string("link.bin"), std::string("up/secret.bin")}) {
     EXPECT_THROW((void)loadFrom(uri, false), SceneError) << uri;
     if (uri.find("x/") == std::string::npos) {
       EXPECT_EQ(loadFrom(uri, true).instances.size(), 1u) << uri << " with allowExternal";

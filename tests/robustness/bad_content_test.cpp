@@ -69,14 +69,14 @@ TEST(BadInput19, AnImageThatInflatesBeyondItsSizeIsRefused) {
     count += width;
     for (; count >= 8; count -= 8, bits >>= 8) deflated += static_cast<char>(bits & 0xffu);
   };
-  put(1, 1);      // last block
-  put(1, 2);      // fixed Huffman codes (RFC 1951, 3.2.6)
-  put(0x0c, 8);   // literal 0: 00110000, most significant bit first
+  put(1, 1);    // last block
+  put(1, 2);    // fixed Huffman codes (RFC 1951, 3.2.6)
+  put(0x0c, 8); // literal 0: 00110000, most significant bit first
   for (int i = 0; i < (64 << 20) / 258; ++i) {
     put(0xa3, 8); // length 258: 11000101
     put(0, 5);    // distance 1
   }
-  put(0, 7);      // end of block
+  put(0, 7); // end of block
   put(0, 7);
   const std::string bomb = pngHeader(1, 1, 8, 6) + pngChunk("IDAT", deflated) + pngChunk("IEND", "");
   expectRefused<SceneError>(withImage(bomb), {"/images/0: ", "IMAGE_DATA_INVALID"});
@@ -104,9 +104,11 @@ TEST(BadInput19, OtherFormatsAndWrongMediaTypesAreRefused) {
 }
 
 TEST(BadInput19, SixteenBitGrayAndPaletteImagesAreDecoded) {
-  EXPECT_EQ(load(withImage(png({.bitDepth = 16, .colorType = 0, .rows = "\x12\x34"}))).images.at(0).bitsPerChannel, 16u);
+  EXPECT_EQ(load(withImage(png({.bitDepth = 16, .colorType = 0, .rows = "\x12\x34"}))).images.at(0).bitsPerChannel,
+            16u);
   EXPECT_EQ(load(withImage(png({.colorType = 0, .rows = "\x12"}))).images.at(0).pixels.size(), 4u);
-  EXPECT_EQ(load(withImage(png({.colorType = 3, .rows = {'\0'}, .palette = "\x01\x02\x03"}))).images.at(0).pixels.size(), 4u);
+  EXPECT_EQ(
+      load(withImage(png({.colorType = 3, .rows = {'\0'}, .palette = "\x01\x02\x03"}))).images.at(0).pixels.size(), 4u);
 }
 
 TEST(BadInput20, MoreThanTheBudgetIsRefusedWithBothNumbers) {
@@ -117,7 +119,8 @@ TEST(BadInput20, MoreThanTheBudgetIsRefusedWithBothNumbers) {
   EXPECT_EQ(load(asset, {.maxBufferBytes = 100'000}).meshes.at(0).primitives.size(), 1000u);
   expectRefused<LimitError>(asset, {"/accessors/0: 36 more bytes", "28 of 10000 are left"}, {.maxBufferBytes = 10'000});
   // 2 bytes a pixel in the file, 8 decoded.
-  const std::string gray16 = png({.width = 64, .height = 64, .bitDepth = 16, .colorType = 0, .rows = std::string(8192, '\1')});
+  const std::string gray16 =
+      png({.width = 64, .height = 64, .bitDepth = 16, .colorType = 0, .rows = std::string(8192, '\1')});
   expectRefused<LimitError>(withImage(gray16), {"/images/0: 32768 more bytes"}, {.maxBufferBytes = 17'000});
 }
 
@@ -144,11 +147,11 @@ TEST(BadInput21, OptionalCompressionWithoutAFallbackIsUnsupported) {
 }
 
 TEST(BadInput22, FactorsOutOfRangeAreClamped) {
-  const Scene scene = load(withMaterial({{"pbrMetallicRoughness",
-                                          {{"roughnessFactor", -0.5}, {"metallicFactor", 1.5}, {"baseColorFactor", {2, 0, 0, 1}}}},
-                                         {"extensions",
-                                          {{"KHR_materials_ior", {{"ior", 0.99}}},
-                                           {"KHR_materials_emissive_strength", {{"emissiveStrength", 1e30}}}}}}));
+  const Scene scene = load(withMaterial(
+      {{"pbrMetallicRoughness",
+        {{"roughnessFactor", -0.5}, {"metallicFactor", 1.5}, {"baseColorFactor", {2, 0, 0, 1}}}},
+       {"extensions",
+        {{"KHR_materials_ior", {{"ior", 0.99}}}, {"KHR_materials_emissive_strength", {{"emissiveStrength", 1e30}}}}}}));
   const Material& m = scene.materials.at(0);
   EXPECT_EQ(m.roughness, 0);
   EXPECT_EQ(m.metallic, 1);
@@ -260,7 +263,9 @@ TEST(BadInput26, CamerasThatCannotProjectAreRefused) {
 TEST(BadInput28, BadEnvironmentsAreRefusedOrRepaired) {
   const TemporaryFolder folder;
   std::vector<std::string> warnings;
-  const auto loadBytes = [&](const std::string& bytes) { return loadEnvironment(folder.write("sky.hdr", bytes), warnings); };
+  const auto loadBytes = [&](const std::string& bytes) {
+    return loadEnvironment(folder.write("sky.hdr", bytes), warnings);
+  };
   const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
   EXPECT_EQ(loadBytes(header + "-Y 1 +X 2\n" + std::string(8, '\0')).pixels, std::vector<glm::vec3>(2, glm::vec3(0)))
       << "all black is fine";

@@ -37,7 +37,8 @@ GltfAsset withSparse(const std::vector<uint8_t>& indices, const Json& changes = 
   const std::string values(12 * indices.size(), '\1');
   asset.json["accessors"][0]["sparse"] = {
       {"count", indices.size()},
-      {"indices", {{"bufferView", asset.addView(std::string(indices.begin(), indices.end()))}, {"componentType", kUInt8}}},
+      {"indices",
+       {{"bufferView", asset.addView(std::string(indices.begin(), indices.end()))}, {"componentType", kUInt8}}},
       {"values", {{"bufferView", asset.addView(values)}}}};
   asset.json["accessors"][0]["sparse"].update(changes, true);
   return asset;
@@ -70,9 +71,8 @@ TEST(BadInput09, BufferViewPastBufferIsRefused) {
 }
 
 TEST(BadInput09, AccessorPastBufferIsRefused) {
-  for (const Json& accessor :
-       {Json{{"count", 4}}, Json{{"byteOffset", 4}}, Json{{"byteOffset", UINT64_MAX - 3}}, Json{{"byteOffset", 1u << 30}},
-        Json{{"type", "VEC4"}}, Json{{"type", "MAT4"}}}) {
+  for (const Json& accessor : {Json{{"count", 4}}, Json{{"byteOffset", 4}}, Json{{"byteOffset", UINT64_MAX - 3}},
+                               Json{{"byteOffset", 1u << 30}}, Json{{"type", "VEC4"}}, Json{{"type", "MAT4"}}}) {
     expectRefused<SceneError>(withAccessor(accessor), {"/accessors/0: ", "ACCESSOR_TOO_LONG"});
   }
   GltfAsset strided = withView({{"byteStride", 16}});
@@ -151,7 +151,8 @@ TEST(BadInput12, SparseIndicesHaveToIncreaseBelowTheCount) {
   expectRefused<SceneError>(withSparse({0}, {{"count", 2}}), {"/accessors/0/sparse/indices: ", "ACCESSOR_TOO_LONG"});
   expectRefused<SceneError>(withSparse({0}, {{"values", {{"byteOffset", UINT64_MAX - 3}}}}),
                             {"/accessors/0/sparse/values: ", "ACCESSOR_TOO_LONG"});
-  expectRefused<SceneError>(withSparse({0}, {{"values", {{"byteOffset", 2}}}}), {"/accessors/0/sparse/values/byteOffset: "});
+  expectRefused<SceneError>(withSparse({0}, {{"values", {{"byteOffset", 2}}}}),
+                            {"/accessors/0/sparse/values/byteOffset: "});
 }
 
 TEST(BadInput13, PositionsThatAreNotFiniteAreRefused) {
@@ -216,8 +217,9 @@ TEST(BadInput17, MatricesThatAreNotNumbersOrNotAffineAreRefused) {
   expectRefused<SceneError>(withNodes({{{"mesh", 0}, {"translation", {0, nullptr, 0}}}}), {"/nodes/0/translation/1: "});
   expectRefused<SceneError>(withNodes({{{"mesh", 0}, {"matrix", {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}}),
                             {"/nodes/0/matrix: ", "affine"});
-  expectRefused<SceneError>(withNodes({{{"children", {1}}, {"scale", {1e300, 1, 1}}}, {{"mesh", 0}, {"scale", {1e300, 1, 1}}}}),
-                            {"/nodes/1: ", "finite"});
+  expectRefused<SceneError>(
+      withNodes({{{"children", {1}}, {"scale", {1e300, 1, 1}}}, {{"mesh", 0}, {"scale", {1e300, 1, 1}}}}),
+      {"/nodes/1: ", "finite"});
   std::string text = withNodes({{{"mesh", 0}, {"translation", {0, 123456, 0}}}}).gltf();
   text.replace(text.find("123456"), 6, "NaN");
   expectRefused<SceneError>(text, {"valid JSON"});
@@ -251,7 +253,8 @@ TEST(BadInput18, IndicesOutOfRangeAreRefusedEverywhere) {
         "/nodes/0/children/0", "/nodes/1/extensions/KHR_lights_punctual/light", "/skins/0/joints/0",
         "/meshes/0/primitives/0/attributes/POSITION", "/accessors/0/bufferView", "/bufferViews/0/buffer",
         "/scenes/0/nodes/0"}) {
-    for (const Json& bad : {Json(-1), Json(1000), Json(1ull << 32), Json(UINT64_MAX), Json(0.0), Json("0"), Json(nullptr)}) {
+    for (const Json& bad :
+         {Json(-1), Json(1000), Json(1ull << 32), Json(UINT64_MAX), Json(0.0), Json("0"), Json(nullptr)}) {
       GltfAsset broken = valid;
       broken.json[Json::json_pointer(pointer)] = bad;
       expectRefused<SceneError>(broken, {pointer + ": ", "UNRESOLVED_REFERENCE"});

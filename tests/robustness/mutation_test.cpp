@@ -29,15 +29,16 @@ GltfAsset richAsset() {
   const float displaced[3] = {0, 0, 1};
   asset.primitive()["targets"] = {
       {{"POSITION",
-        asset.add("accessors",
-                  {{"componentType", kFloat32},
-                   {"count", 4},
-                   {"type", "VEC3"},
-                   {"sparse",
-                    {{"count", 1},
-                     {"indices", {{"bufferView", asset.addView(std::string(1, '\3'))}, {"componentType", kUInt8}}},
-                     {"values",
-                      {{"bufferView", asset.addView({reinterpret_cast<const char*>(displaced), sizeof(displaced)})}}}}}})}}};
+        asset.add(
+            "accessors",
+            {{"componentType", kFloat32},
+             {"count", 4},
+             {"type", "VEC3"},
+             {"sparse",
+              {{"count", 1},
+               {"indices", {{"bufferView", asset.addView(std::string(1, '\3'))}, {"componentType", kUInt8}}},
+               {"values",
+                {{"bufferView", asset.addView({reinterpret_cast<const char*>(displaced), sizeof(displaced)})}}}}}})}}};
   asset.json["meshes"][0]["weights"] = {0.5};
   asset.add("textures", {{"source", asset.addImage(png({.width = 2, .height = 2, .rows = std::string(16, '\x40')}))}});
   asset.material() = {{"normalTexture", {{"index", 0}}},
@@ -80,12 +81,14 @@ std::string cut(std::string bytes, std::mt19937& random) {
 
 /// Replaces a number of the JSON by another one that loaders tend to trip over.
 std::string swapNumber(std::string bytes, std::mt19937& random) {
-  static const std::vector<std::string> kNumbers = {"0",   "1",     "2",          "3",          "7",   "-1",  "255",
-                                                    "256", "65535", "2147483647", "4294967295", "1e9", "0.5", "18446744073709551615",
-                                                    "5120", "5121", "5123",       "5125",       "5126", "1e300", "4294967296"};
+  static const std::vector<std::string> kNumbers = {
+      "0",    "1",     "2",          "3",          "7",    "-1",    "255",
+      "256",  "65535", "2147483647", "4294967295", "1e9",  "0.5",   "18446744073709551615",
+      "5120", "5121",  "5123",       "5125",       "5126", "1e300", "4294967296"};
   std::vector<std::pair<size_t, size_t>> numbers;
   for (size_t i = 0; i + 1 < bytes.size(); ++i) {
-    const bool starts = (bytes[i] == ':' || bytes[i] == ',' || bytes[i] == '[') && (std::isdigit(bytes[i + 1]) || bytes[i + 1] == '-');
+    const bool starts =
+        (bytes[i] == ':' || bytes[i] == ',' || bytes[i] == '[') && (std::isdigit(bytes[i + 1]) || bytes[i + 1] == '-');
     if (!starts) continue;
     const size_t end = bytes.find_first_not_of("-+.eE0123456789", i + 1);
     if (end != std::string::npos) numbers.emplace_back(i + 1, end - i - 1);
@@ -136,6 +139,4 @@ TEST(Mutation, MissingPiecesAreSurvived) {
   runMutations(richAsset().gltf(), 5, 150, 0, cut);
 }
 
-TEST(Mutation, SwappedNumbersAreSurvived) {
-  runMutations(richAsset().json.dump(), 4, 900, 45, glbWithNumberSwapped);
-}
+TEST(Mutation, SwappedNumbersAreSurvived) { runMutations(richAsset().json.dump(), 4, 900, 45, glbWithNumberSwapped); }

@@ -31,7 +31,8 @@ void expectRefused(const std::string& bytes, const std::vector<std::string>& par
   const TemporaryFolder folder;
   const std::string message = refusalOf<Exception>(folder, bytes, options);
   EXPECT_NE(message.find("asset.gltf: "), std::string::npos) << message;
-  for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks " << part;
+  for (const std::string& part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks " << part;
 }
 
 template <class Exception>

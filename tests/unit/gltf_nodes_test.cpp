@@ -72,7 +72,8 @@ TEST(GltfNodes, SingularTransformsAreSkippedWithAWarning) {
 }
 
 TEST(GltfNodes, OddQuaternionsAreNormalizedWithAWarning) {
-  const Scene scene = load(withNodes({{{"mesh", 0}, {"rotation", {0, 0, 3, 3}}}, {{"mesh", 0}, {"rotation", {0, 0, 0, 0}}}}, {0, 1}));
+  const Scene scene =
+      load(withNodes({{{"mesh", 0}, {"rotation", {0, 0, 3, 3}}}, {{"mesh", 0}, {"rotation", {0, 0, 0, 0}}}}, {0, 1}));
   expectNear(transformed(scene.instances.at(0), {1, 0, 0}), {0, 1, 0});
   expectNear(transformed(scene.instances.at(1), {1, 0, 0}), {1, 0, 0});
   EXPECT_TRUE(warns(scene, "not unit quaternions are normalized (2 times"));
@@ -102,12 +103,13 @@ TEST(GltfNodes, SceneIsChosenByOptionDefaultOrFirst) {
 }
 
 TEST(GltfNodes, InvisibleNodesHideEverythingBelowButCameras) {
-  GltfAsset asset = withNodes({{{"children", {1, 2, 3}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}},
-                               {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}},
-                               {{"camera", 0}},
-                               {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
-                               {{"mesh", 0}}},
-                              {0, 4});
+  GltfAsset asset =
+      withNodes({{{"children", {1, 2, 3}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}},
+                 {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}},
+                 {{"camera", 0}},
+                 {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+                 {{"mesh", 0}}},
+                {0, 4});
   asset.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
   asset.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   asset.json["extensionsRequired"] = {"KHR_node_visibility", "KHR_lights_punctual"};
@@ -152,8 +154,7 @@ TEST(GltfCameras, PerspectiveIsReadAndPlacedWithoutScale) {
                                {{"camera", 1}}},
                               {0, 1});
   asset.json["cameras"] = {
-      {{"type", "perspective"},
-       {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 50}, {"aspectRatio", 1.5}}}},
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 50}, {"aspectRatio", 1.5}}}},
       {{"type", "perspective"}, {"name", "endless"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
   const Scene scene = load(asset);
   ASSERT_EQ(scene.cameras.size(), 2u);

@@ -48,7 +48,8 @@ void checkMediaType(const Document& document, const EncodedImage& encoded, const
   const std::string actual = *format == ImageFormat::Png ? "image/png" : "image/jpeg";
   const bool declaresOther = encoded.mediaType.starts_with("image/") && encoded.mediaType != actual;
   if (declaresOther) {
-    document.fail(pointer, fmt::format("{} as declared, the bytes are {} (IMAGE_MIME_TYPE_INVALID)", encoded.mediaType, actual));
+    document.fail(pointer,
+                  fmt::format("{} as declared, the bytes are {} (IMAGE_MIME_TYPE_INVALID)", encoded.mediaType, actual));
   }
 }
 
@@ -96,8 +97,10 @@ uint32_t Textures::useImage(uint32_t index, Scene& scene) {
   ImageData image;
   image.name = stringOr(json, "name", "");
   const auto refuse = [&](const DecodeProblem& problem) {
-    if (!problem.tooLarge.empty()) throw LimitError(fmt::format("{}: {}: {}", document_.file, pointer, problem.tooLarge));
-    if (!problem.broken.empty()) document_.fail(pointer, "a readable image, " + problem.broken + " (IMAGE_DATA_INVALID)");
+    if (!problem.tooLarge.empty())
+      throw LimitError(fmt::format("{}: {}: {}", document_.file, pointer, problem.tooLarge));
+    if (!problem.broken.empty())
+      document_.fail(pointer, "a readable image, " + problem.broken + " (IMAGE_DATA_INVALID)");
   };
   refuse(readImageHeader(encoded.bytes, document_.options.maxImagePixels, image));
   document_.claim(uint64_t{image.width} * image.height * 4 * image.bitsPerChannel / 8, pointer);

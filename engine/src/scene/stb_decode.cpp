@@ -129,7 +129,8 @@ DecodeProblem checkPngSize(std::span<const std::byte> bytes, uint64_t maxPixels)
 
 DecodeProblem pixelProblem(const Source& source, const void* pixels, const Size& size) {
   if (!pixels && isTooLargeForStb()) {
-    return {.broken = {}, .tooLarge = fmt::format("{} x {} pixels are more than can be decoded", size.width, size.height)};
+    return {.broken = {},
+            .tooLarge = fmt::format("{} x {} pixels are more than can be decoded", size.width, size.height)};
   }
   if (!pixels) return {.broken = fmt::format("it cannot be decoded ({})", stbi_failure_reason()), .tooLarge = {}};
   return {.broken = source.readPastEnd ? "it is truncated" : "", .tooLarge = {}};
@@ -169,12 +170,11 @@ DecodeProblem decodeImage(std::span<const std::byte> bytes, ImageData& image) {
   Source source{bytes};
   Size size;
   int channels = 0;
-  const Pixels<void> pixels(
-      image.bitsPerChannel == 16
-          ? static_cast<void*>(stbi_load_16_from_callbacks(&kCallbacks, &source, &size.width, &size.height, &channels,
-                                                           kChannels))
-          : static_cast<void*>(stbi_load_from_callbacks(&kCallbacks, &source, &size.width, &size.height, &channels,
-                                                        kChannels)));
+  const Pixels<void> pixels(image.bitsPerChannel == 16
+                                ? static_cast<void*>(stbi_load_16_from_callbacks(&kCallbacks, &source, &size.width,
+                                                                                 &size.height, &channels, kChannels))
+                                : static_cast<void*>(stbi_load_from_callbacks(&kCallbacks, &source, &size.width,
+                                                                              &size.height, &channels, kChannels)));
   if (DecodeProblem problem = pixelProblem(source, pixels.get(), size); problem.any()) return problem;
   const auto* begin = static_cast<const std::byte*>(pixels.get());
   image.pixels.assign(begin, begin + pixelCount * kChannels * image.bitsPerChannel / 8);
