@@ -22,7 +22,8 @@ constexpr uint32_t kTriangles = 200;
 // Everything a vertex can carry, at random, in two primitives.
 Primitive randomPrimitive(std::mt19937& random, uint32_t material) {
   std::uniform_real_distribution<float> unit(-1, 1);
-  Primitive primitive = test::meshOf(test::triangleSoup(kTriangles, 0.5f, random()), {}, material).primitives[0];
+  Primitive primitive =
+      test::meshOf(test::triangleSoup(kTriangles, 0.5f, static_cast<uint32_t>(random())), {}, material).primitives[0];
   for (size_t i = 0; i < primitive.positions.size(); ++i) {
     primitive.normals.push_back(test::randomDirection(random));
     primitive.tangents.emplace_back(test::randomDirection(random), (i / 3) % 2 == 0 ? 1.0f : -1.0f);
@@ -137,18 +138,20 @@ TEST(Surface, EqualsTheDoubleReferenceForAnyPlacement) {
     mirrored += packed.instances[cases[i].instance].flags & gpu::kInstanceMirrored;
 
     for (int axis = 0; axis < 3; ++axis) ASSERT_LE(std::abs(s.p[axis] - r.p[axis]), s.pError[axis]);
-    ASSERT_LT(glm::length(glm::dvec3(s.pError)), 3e-5); // coordinates up to 14
+    ASSERT_LT(glm::length(glm::dvec3(s.pError)), 1e-4); // coordinates up to 20, stretched up to 1 : 16
     // Soup triangles may be thin: their normal is as good as their least height over the size of coordinates.
     const double thin = 1e-6 * (1 + 0.25 / r.area);
     ASSERT_LT(glm::length(glm::dvec3(s.ng) - r.ng), 10 * thin);
     ASSERT_NEAR(s.area, r.area, 10 * thin * r.area);
     ASSERT_LT(std::min(glm::length(glm::dvec3(s.ns) - r.ns), glm::length(glm::dvec3(s.ns) + r.ns)), 1e-3);
-    if (std::abs(glm::dot(r.ns, r.ng)) > 1e-3) ASSERT_GT(glm::dot(glm::dvec3(s.ns), r.ns), 0.999);
+    if (std::abs(glm::dot(r.ns, r.ng)) > 1e-3) {
+      ASSERT_GT(glm::dot(glm::dvec3(s.ns), r.ns), 0.999);
+    }
     ASSERT_LT(glm::length(glm::dvec3(s.tangent) - r.tangent), 1e-5);
     ASSERT_EQ(s.tangent.w, r.w);
     ASSERT_LT(glm::length(glm::dvec4(s.color) - r.color), 1e-6);
     ASSERT_LT(glm::length(glm::dvec2(s.uv1) - r.uv1), 1e-6);
-    ASSERT_EQ(s.uv0, glm::vec2(0)); // no texture reads set 0: it is not stored
+    ASSERT_LT(glm::length(glm::dvec2(s.uv0) - r.uv0), 1e-6);
     ASSERT_EQ(s.geometry, triangle.geometry);
     ASSERT_EQ(s.material, triangle.geometry);
     ASSERT_EQ(s.primitiveIndex, triangle.primitiveIndex);
