@@ -18,7 +18,7 @@ constexpr uint32_t kModeLocalSize = 17;
 constexpr uint32_t kModeLocalSizeId = 38;
 
 /// Turns LocalSizeId, whose operands are by now plain constants, into LocalSize: the former is valid only with the
-/// maintenance4 feature, and nothing is left to specialise.
+/// maintenance4 feature, and nothing is left to specialize.
 void fixLocalSize(std::vector<uint32_t>& spirv) {
   std::unordered_map<uint32_t, uint32_t> constants; // result id -> value of 32-bit constants
   std::vector<size_t> modes;
@@ -77,7 +77,7 @@ std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span
 
   std::vector<uint32_t> result;
   if (!optimizer.Run(spirv.data(), spirv.size(), &result, options)) {
-    throw Error("SPIR-V specialisation failed: " + problem);
+    throw Error("SPIR-V specialization failed: " + problem);
   }
   fixLocalSize(result);
   return result;
