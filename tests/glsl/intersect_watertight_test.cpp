@@ -49,8 +49,8 @@ Misses countMisses(const Scene& scene, glm::vec3 center, float spread, uint32_t 
     rays.push_back({.origin = origin, .direction = direction, .tMax = 3.402823466e38f});
   }
   Misses misses;
-  for (const TraversalResult& result : test::runProbe<TraversalCase, TraversalResult>(
-           test_glsl_kernels::kernelSource("traversal_probe"), rays, gpuScene.impl().view.address())) {
+  for (const TraversalResult& result :
+       test::runOnScene<TraversalResult>(test_glsl_kernels::kernelSource("traversal_probe"), gpuScene, rays)) {
     misses.closest += result.found == 0;
     misses.occlusion += result.occluded == 0;
   }
@@ -61,7 +61,8 @@ Misses countMisses(const Scene& scene, glm::vec3 center, float spread, uint32_t 
 
 TEST(Watertight, NoRayLeavesASphereAtTheOrigin) {
   for (const uint32_t rings : {25u, 100u}) {
-    const Misses misses = countMisses(test::sceneOf({test::sphereMesh({0, 0, 0}, 2, rings)}), {0, 0, 0}, 0.5f, 200000, 1);
+    const Misses misses =
+        countMisses(test::sceneOf({test::sphereMesh({0, 0, 0}, 2, rings)}), {0, 0, 0}, 0.5f, 200000, 1);
     EXPECT_EQ(misses.closest, 0u);
     EXPECT_EQ(misses.occlusion, 0u);
   }
@@ -104,8 +105,7 @@ TEST(Watertight, NoRayLeavesASphereOfAnySize) {
 TEST(Watertight, NoRayLeavesABoxAlongItsFacesAndDiagonals) {
   // Edges parallel to the axes lie on the borders of boxes.
   std::vector<glm::vec3> positions;
-  for (uint32_t i = 0; i < 8; ++i)
-    positions.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
+  for (uint32_t i = 0; i < 8; ++i) positions.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
   const std::vector<uint32_t> indices{0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
                                       2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
   const Misses misses = countMisses(test::sceneOf({test::meshOf(positions, indices)}), {0, 0, 0}, 0.9999f, 400000, 7);
@@ -135,8 +135,8 @@ TEST(Watertight, RaysAtCentersOfSmallTrianglesFindThem) {
     rays.push_back({.origin = origin, .direction = glm::normalize(target - origin), .tMax = 1e30f});
   }
   const GpuScene gpuScene(test::gpuDevice(), scene);
-  const auto results = test::runProbe<TraversalCase, TraversalResult>(
-      test_glsl_kernels::kernelSource("traversal_probe"), rays, gpuScene.impl().view.address());
+  const auto results =
+      test::runOnScene<TraversalResult>(test_glsl_kernels::kernelSource("traversal_probe"), gpuScene, rays);
   for (size_t i = 0; i < results.size(); ++i) {
     ASSERT_EQ(results[i].found, 1u);
     ASSERT_EQ(results[i].primitiveIndex, i);

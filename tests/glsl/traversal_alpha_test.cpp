@@ -19,10 +19,8 @@ namespace {
 constexpr uint32_t kSamples = 100000;
 
 std::vector<TraversalResult> trace(const Scene& scene, const std::vector<TraversalCase>& rays) {
-  const GpuScene gpuScene(test::gpuDevice(), scene);
-  return test::runProbe<TraversalCase, TraversalResult>(
-      test_glsl_kernels::kernelSource("traversal_probe"), rays,
-      test::ProbeEnvironment{.extra = gpuScene.impl().view.address(), .textures = &gpuScene.impl().textures});
+  return test::runOnScene<TraversalResult>(test_glsl_kernels::kernelSource("traversal_probe"),
+                                           GpuScene(test::gpuDevice(), scene), rays);
 }
 
 // Sheets across the z axis at z = 0, 1, ..., all of one material, with uv = xy.
@@ -61,7 +59,8 @@ void addAlphaTexture(Scene& scene, const std::array<uint8_t, 4>& alphas) {
   image.width = 4;
   image.height = 1;
   for (const uint8_t alpha : alphas) {
-    for (const uint8_t value : {uint8_t{255}, uint8_t{255}, uint8_t{255}, alpha}) image.pixels.push_back(std::byte{value});
+    for (const uint8_t value : {uint8_t{255}, uint8_t{255}, uint8_t{255}, alpha})
+      image.pixels.push_back(std::byte{value});
   }
   scene.images.push_back(image);
   scene.textures.push_back({.image = 0, .wrapS = Wrap::ClampToEdge, .filter = Filter::Nearest});
@@ -110,7 +109,7 @@ TEST(AlphaTest, MasksCutWhereTextureTimesFactorIsBelowTheCutoff) {
   Scene scene = sheets(1, mask);
   addAlphaTexture(scene, {0, 150, 170, 255}); // times 0.8: 0, 0.47, 0.53, 0.8
   std::vector<TraversalCase> rays;
-  for (int column = 0; column < 4; ++column) rays.push_back(samplesOfOneRay({0.125f + 0.25f * column, 0.4f}, 1)[0]);
+  for (const float x : {0.125f, 0.375f, 0.625f, 0.875f}) rays.push_back(samplesOfOneRay({x, 0.4f}, 1)[0]);
   const auto results = trace(scene, rays);
   EXPECT_EQ(results[0].found, 0u);
   EXPECT_EQ(results[1].found, 0u);

@@ -22,9 +22,9 @@ struct TraversalResult {
   uint triangle;
   vec2 barycentrics;
   uint found;
-  uint occluded;      // the answer of traceOccluded to the same ray
+  uint occluded; // the answer of traceOccluded to the same ray
   uint stackOverflow;
-  uint geometry;      // of the triangle hit
+  uint geometry; // of the triangle hit
   uint primitiveIndex;
 };
 

@@ -8,7 +8,7 @@
 #include "support/probe_main.glsl"
 
 TraversalResult probe(const TraversalCase c) {
-  const SceneRef scene = SceneRef(pc.extra);
+  SceneRef scene = SceneRef(pc.extra);
   const AlphaKey key = AlphaKey(c.pixel, c.sampleIndex, uvec2(1u, 2u), c.vertex);
   const RayHit hit = traceClosest(scene, c.origin, c.direction, c.tMin, c.tMax, key);
   bool overflow;

@@ -32,6 +32,13 @@ Crossing cross(const glm::dvec3& origin, const glm::dvec3& direction, const glm:
 
 } // namespace
 
+std::vector<gpu::SpecConstant> featureConstants(const FeatureSet& features) {
+  std::vector<gpu::SpecConstant> constants;
+  for (const FeatureDescription& description : allFeatures())
+    constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
+  return constants;
+}
+
 Mesh meshOf(std::vector<glm::vec3> positions, std::vector<uint32_t> indices, uint32_t material) {
   Primitive primitive;
   if (indices.empty()) {

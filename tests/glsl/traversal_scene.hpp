@@ -10,6 +10,8 @@
 
 #include "isophote/gpu_scene.hpp"
 #include "isophote/scene.hpp"
+#include "support/probe.hpp"
+#include "upload/gpu_scene.hpp"
 
 namespace isophote::test {
 
@@ -33,14 +35,27 @@ namespace isophote::test {
 
 struct ReferenceHit {
   double t = 0;
-  uint32_t instance = 0;  ///< of the Scene
-  uint32_t triangle = 0;  ///< number within its mesh
+  uint32_t instance = 0; ///< of the Scene
+  uint32_t triangle = 0; ///< number within its mesh
   glm::dvec2 barycentrics{0};
-  double margin = 0;      ///< how much nearer an edge or another hit would have to be to change the answer, relative
+  double margin = 0; ///< how much nearer an edge or another hit would have to be to change the answer, relative
 };
 
 /// The closest hit with t > 0 over every triangle of every instance; scenes of one primitive a mesh.
 [[nodiscard]] std::optional<ReferenceHit> bruteForceHit(const Scene& scene, const glm::dvec3& origin,
                                                         const glm::dvec3& direction, double tMax);
+
+/// Every feature as specialisation constant, as the scene has it.
+[[nodiscard]] std::vector<gpu::SpecConstant> featureConstants(const FeatureSet& features);
+
+/// Runs a probe whose pc.extra is the scene, specialised for the scene's features.
+template <class Out, class In>
+[[nodiscard]] std::vector<Out> runOnScene(const gpu::KernelSource& source, const GpuScene& scene,
+                                          const std::vector<In>& inputs) {
+  const std::vector<gpu::SpecConstant> constants = featureConstants(scene.features());
+  return runProbe<In, Out>(
+      source, inputs,
+      {.extra = scene.impl().view.address(), .constants = constants, .textures = &scene.impl().textures});
+}
 
 } // namespace isophote::test

@@ -9,12 +9,12 @@
 #include "support/probe_main.glsl"
 
 StepResult probe(const TraversalCase c) {
-  const SceneRef scene = SceneRef(pc.extra);
+  SceneRef scene = SceneRef(pc.extra);
   const AlphaKey key = AlphaKey(c.pixel, c.sampleIndex, uvec2(1u, 2u), c.vertex);
   StepResult result = StepResult(kInvalidIndex, kInvalidIndex, kInvalidIndex, 0.0, 0.0);
   const RayHit hit = traceClosest(scene, c.origin, c.direction, c.tMin, c.tMax, key);
   if (!hit.found) return result;
-  const InstanceRef instances = InstanceRef(scene.view.instances);
+  InstanceRef instances = InstanceRef(scene.view.instances);
   result.first = instances.items[hit.instance].mesh;
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics);
   const vec3 onward = offsetRayOrigin(surface.p, surface.pError, surface.ng, c.direction);

@@ -18,10 +18,8 @@ using gpu::TraversalResult;
 namespace {
 
 std::vector<TraversalResult> trace(const Scene& scene, const std::vector<TraversalCase>& rays) {
-  const GpuScene gpuScene(test::gpuDevice(), scene);
-  return test::runProbe<TraversalCase, TraversalResult>(
-      test_glsl_kernels::kernelSource("traversal_probe"), rays,
-      test::ProbeEnvironment{.extra = gpuScene.impl().view.address(), .textures = &gpuScene.impl().textures});
+  return test::runOnScene<TraversalResult>(test_glsl_kernels::kernelSource("traversal_probe"),
+                                           GpuScene(test::gpuDevice(), scene), rays);
 }
 
 TraversalCase ray(glm::vec3 origin, glm::vec3 direction, float tMax = 3.402823466e38f) {
@@ -39,8 +37,10 @@ std::vector<TraversalCase> randomRays(uint32_t count, float spread, uint32_t see
   return rays;
 }
 
-// Every ray that brute force in double decides with some margin must come out the same. `tolerance`: of t, relative.
-void expectBruteForceHits(const Scene& scene, const std::vector<TraversalCase>& rays, double tolerance) {
+// Every ray that brute force in double decides with some margin must come out the same. t carries the roundings of
+// coordinates as large as `reach`: some 50 of 2^-24, and more where the ray meets the triangle at a flat angle.
+void expectBruteForceHits(const Scene& scene, const std::vector<TraversalCase>& rays, double reach,
+                          double shareOfHits = 0.2) {
   const std::vector<TraversalResult> results = trace(scene, rays);
   uint32_t hits = 0, misses = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
@@ -53,11 +53,11 @@ void expectBruteForceHits(const Scene& scene, const std::vector<TraversalCase>& 
     (expected ? hits : misses) += 1;
     if (!expected) continue;
     ASSERT_EQ(result.primitiveIndex, expected->triangle) << "ray " << i;
-    ASSERT_NEAR(result.t, expected->t, tolerance * expected->t) << "ray " << i;
+    ASSERT_NEAR(result.t, expected->t, 1e-5 * expected->t + 3e-6 * reach) << "ray " << i;
     ASSERT_NEAR(result.barycentrics.x, expected->barycentrics.x, 1e-4) << "ray " << i;
     ASSERT_NEAR(result.barycentrics.y, expected->barycentrics.y, 1e-4) << "ray " << i;
   }
-  EXPECT_GT(hits, rays.size() / 5);
+  EXPECT_GT(hits, shareOfHits * static_cast<double>(rays.size()));
   EXPECT_GT(misses, rays.size() / 50);
 }
 
@@ -80,11 +80,11 @@ Scene instancedScene(uint32_t meshes, uint32_t instances, uint32_t seed) {
 
 TEST(Traversal, FindsWhatBruteForceFindsInATriangleSoup) {
   const Scene scene = test::sceneOf({test::meshOf(test::triangleSoup(600, 0.3f, 1))});
-  expectBruteForceHits(scene, randomRays(8000, 1.5f, 2), 1e-5);
+  expectBruteForceHits(scene, randomRays(8000, 1.5f, 2), 1);
 }
 
 TEST(Traversal, FindsWhatBruteForceFindsAmongMirroredAndStretchedInstances) {
-  expectBruteForceHits(instancedScene(4, 60, 3), randomRays(6000, 10, 4), 3e-5);
+  expectBruteForceHits(instancedScene(4, 60, 3), randomRays(6000, 10, 4), 10);
 }
 
 TEST(Traversal, FindsTheOneTriangleOfATinyScene) {
@@ -127,8 +127,8 @@ TEST(Traversal, EqualDistancesGoToTheSmallerInstanceAndTriangle) {
   for (int copy = 0; copy < 37; ++copy) positions.insert(positions.end(), {a, b, c});
   Scene scene = test::sceneOf({test::meshOf(positions)});
   scene.instances.resize(23, scene.instances[0]);
-  for (const TraversalResult& result : trace(scene, {ray({0, 0, 5}, {0, 0, -1}), ray({0.1f, 0.2f, -5}, {0, 0, 1}),
-                                                     ray({4, 5, 6}, {-4, -5, -6})})) {
+  for (const TraversalResult& result :
+       trace(scene, {ray({0, 0, 5}, {0, 0, -1}), ray({0.1f, 0.2f, -5}, {0, 0, 1}), ray({4, 5, 6}, {-4, -5, -6})})) {
     EXPECT_EQ(result.found, 1u);
     EXPECT_EQ(result.instance, 0u);
     EXPECT_EQ(result.triangle, 0u);
@@ -196,7 +196,7 @@ TEST(Traversal, ManyInstancesOfOneMeshAreStoredOnce) {
   }
   scene.instances.resize(2500); // the rays reach no others; brute force in double is slow
   std::erase_if(scene.instances, [](const Instance& i) { return i.worldFromObject[3].x > 84; });
-  expectBruteForceHits(scene, rays, 1e-5);
+  expectBruteForceHits(scene, rays, 80, 0.1);
 }
 
 TEST(Traversal, NeedlesOfAMillionToOneAreHit) {
@@ -215,7 +215,7 @@ TEST(Traversal, NeedlesOfAMillionToOneAreHit) {
   std::uniform_real_distribution<float> unit(0, 1);
   std::vector<TraversalCase> rays;
   for (uint32_t i = 0; i < 5000; ++i)
-    rays.push_back(ray({2e-4f * unit(random), unit(random), 1}, {0, 0, -1}));
+    rays.push_back(ray({1e-6f + 1.98e-4f * unit(random), unit(random), 1}, {0, 0, -1}));
   for (const TraversalResult& result : trace(test::sceneOf({test::meshOf(positions, indices)}), rays)) {
     ASSERT_EQ(result.found, 1u);
     ASSERT_TRUE(std::isfinite(result.t));

@@ -22,6 +22,6 @@ float textureRed(const uint index) {
 
 SpecializedResult probe(const SpecializedCase c) {
   const float x = float(c.index);
-  const float rounded = (x + kMeasure) - x; // not kMeasure, unless the specializer reassociates
+  const float rounded = (x + kMeasure) - x; // stays an addition and a subtraction
   return SpecializedResult(rounded, gl_WorkGroupSize.x, kNumber, kMeasure, uint(kFlag), textureRed(c.index));
 }
