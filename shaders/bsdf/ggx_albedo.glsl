@@ -14,6 +14,7 @@
 /// @param alpha roughness squared, in [0, 1]; 0 gives the smooth mirror's exact limit at the table's nodes
 /// Accuracy: see docs/bsdf.md, measured in tests/unit/ggx_albedo_test.cpp.
 vec2 ggxAlbedo(const SceneRef scene, const float mu, const float alpha) {
+  if (scene.view.ggxAlbedo == 0ul) return vec2(0.0); // an all-features kernel on a scene without specular surfaces
   const float column = sqrt(clamp(mu, 0.0, 1.0)) * float(kGgxAlbedoMuCount - 1u);
   const float row = sqrt(clamp(alpha, 0.0, 1.0)) * float(kGgxAlbedoRoughnessCount - 1u);
   const uint c = min(uint(column), kGgxAlbedoMuCount - 2u);
@@ -28,6 +29,7 @@ vec2 ggxAlbedo(const SceneRef scene, const float mu, const float alpha) {
 
 /// Returns the cosine-weighted mean of (A, B) over the hemisphere, 2 times the integral of (A, B) mu over mu.
 vec2 ggxMeanAlbedo(const SceneRef scene, const float alpha) {
+  if (scene.view.ggxAlbedo == 0ul) return vec2(0.0);
   const float row = sqrt(clamp(alpha, 0.0, 1.0)) * float(kGgxAlbedoRoughnessCount - 1u);
   const uint r = min(uint(row), kGgxAlbedoRoughnessCount - 2u);
   Vec2Ref means = Vec2Ref(scene.view.ggxAlbedo);

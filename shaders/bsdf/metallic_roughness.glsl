@@ -90,10 +90,12 @@ BsdfValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const v
   value.fCos = m.baseColor * ((1.0 - m.metallic) * coat * kInvPi * wiLocal.z);
   value.pdfSolidAngle = (1.0 - probability) * kInvPi * wiLocal.z;
   if (!isMirror(m)) {
-    const vec3 wm = normalize(woLocal + wiLocal);
+    const vec3 sum = woLocal + wiLocal;
+    const float twoCosine = length(sum); // 2 dot(wo, wm) of unit directions: the same from both sides to the last bit
+    const vec3 wm = sum / twoCosine;
     const vec2 width = vec2(m.alpha);
     const float shape = ggxD(wm, width) * ggxVisibility(woLocal, wiLocal, width) * wiLocal.z;
-    value.fCos += fresnelSchlick(m.f0, m.f90, dot(woLocal, wm)) * shape;
+    value.fCos += fresnelSchlick(m.f0, m.f90, 0.5 * twoCosine) * shape;
     value.pdfSolidAngle += probability * pdfVisibleReflection(woLocal, wm, width);
   }
   return value;

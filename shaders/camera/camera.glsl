@@ -4,14 +4,13 @@
 
 #include "shared/camera_types.h"
 #include "shared/constants.glsl"
-
-const float kCameraRayUnlimited = 3.402823466e38;
+#include "shared/geometry_types.h"
 
 struct CameraRay {
   vec3 origin;
   vec3 direction; // unit
   float tMin;     // where the ray meets the plane znear
-  float tMax;     // where it meets the plane zfar; kCameraRayUnlimited without one
+  float tMax;     // where it meets the plane zfar; kRayInfinity without one
 };
 
 /// The ray through a point of the image.
@@ -33,7 +32,7 @@ CameraRay cameraRay(const CameraRecord camera, vec2 pixelPosition, vec2 imageSiz
     ray.direction = toImage * cosine;
   }
   ray.tMin = camera.znear / cosine;
-  ray.tMax = camera.zfar > 0.0 ? camera.zfar / cosine : kCameraRayUnlimited;
+  ray.tMax = camera.zfar > 0.0 ? camera.zfar / cosine : kRayInfinity;
   return ray;
 }
 

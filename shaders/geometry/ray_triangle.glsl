@@ -4,9 +4,11 @@
 
 #include "geometry/exact_product.glsl"
 #include "geometry/float_steps.glsl"
+#include "geometry/triangle_normal.glsl"
 
 struct TriangleRay {
   vec3 origin;
+  vec3 direction;
   vec3 shear; // dx/dz, dy/dz, 1/dz of the direction with its largest component permuted to z
   uint axis;  // the component that goes to z
 };
@@ -31,6 +33,7 @@ TriangleRay makeTriangleRay(const vec3 origin, const vec3 direction) {
   const vec3 a = abs(direction);
   TriangleRay ray;
   ray.origin = origin;
+  ray.direction = direction;
   ray.axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
   const vec3 d = permuteToZ(direction, ray.axis);
   ray.shear = vec3(d.x / d.z, d.y / d.z, 1.0 / d.z);
@@ -54,7 +57,7 @@ float edgeFunction(const vec2 a, const vec2 b) {
   return difference;
 }
 
-/// Bounds the error of t, so that t greater than it is certainly positive.
+/// Bounds the error of the t that the edge functions give: beyond it, the sign of t is certain.
 ///
 /// Source: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering" 4ed, section 6.8.7, with these changes: each
 /// rounding counts 2^-23 and division 2.5 of them, and z is taken before and after the scaling by 1/dz, since the
@@ -75,13 +78,36 @@ float triangleDistanceError(const vec3 a, const vec3 b, const vec3 c, const floa
   return 3.0 * (3.0 * kRoundingError * maxEdge * maxT + deltaEdge * maxT + deltaT * maxEdge) * abs(inverseDeterminant);
 }
 
+/// The distance to the triangle's plane where it is certainly ahead of the origin, else 0.
+///
+/// For what triangleDistanceError leaves open: the triangle that a ray has just left, one that it is about to meet,
+/// needles. Edge functions lose t by the triangle's extent across the ray, which for a wide triangle seen at an angle,
+/// or for a needle, exceeds t itself; the plane's equation at the nearest vertex loses no more than some roundings of
+/// the distance to that vertex. Roundings of the sum below: 1 for the vertex relative to the origin, 3 for product and
+/// sums, 2 for the cross product (in value), 2 for its edges (in magnitude).
+float distanceAhead(const TriangleRay ray, const vec3 v0, const vec3 v1, const vec3 v2) {
+  const EdgeCross normal = crossEdges(v1 - v0, v2 - v1, v0 - v2);
+  const vec3 a = v0 - ray.origin;
+  const vec3 b = v1 - ray.origin;
+  const vec3 c = v2 - ray.origin;
+  const vec3 squares = vec3(dot(a, a), dot(b, b), dot(c, c));
+  const vec3 nearest = squares.x <= squares.y && squares.x <= squares.z ? a : squares.y <= squares.z ? b : c;
+  precise float height = normal.value.x * nearest.x + normal.value.y * nearest.y + normal.value.z * nearest.z;
+  const float speed = dot(normal.value, ray.direction);
+  const vec3 extent = abs(nearest);
+  const float error = kRoundingError * (6.0 * dot(abs(normal.value), extent) + 2.0 * dot(normal.magnitude, extent));
+  if (abs(speed) < kSmallestDeterminant) return 0.0;
+  const float ahead = speed > 0.0 ? height : -height;
+  return ahead > error ? ahead / abs(speed) : 0.0;
+}
+
 /// Two-sided watertight test.
 ///
 /// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1). Their double-precision fallback
 /// is replaced by exact products of power-of-two-scaled floats, which also serves triangles so small that edge
 /// functions underflow.
 /// @param v0, v1, v2  in the ray's space, |coordinate| <= 2^60
-/// @return            t in units of the direction's length; found only where t > 0 beyond its rounding error
+/// @return            t in units of the direction's length; found only where the triangle is certainly ahead
 TriangleHit intersectTriangle(const TriangleRay ray, const vec3 v0, const vec3 v1, const vec3 v2) {
   TriangleHit hit;
   hit.found = false;
@@ -109,9 +135,10 @@ TriangleHit intersectTriangle(const TriangleRay ray, const vec3 v0, const vec3 v
   const float inverse = 1.0 / determinant;
   precise float weighted = edges.x * a.z + edges.y * b.z + edges.z * c.z;
   precise float t = weighted * ray.shear.z * inverse;
-  if (!(t > triangleDistanceError(a, b, c, scale, edges, inverse, ray.shear.z))) return hit;
-  hit.found = true;
-  hit.t = t;
+  const float error = triangleDistanceError(a, b, c, scale, edges, inverse, ray.shear.z);
+  if (t < -error) return hit;
+  hit.t = t > error ? t : distanceAhead(ray, v0, v1, v2);
+  hit.found = hit.t > 0.0;
   hit.barycentrics = edges.yz * inverse;
   return hit;
 }

@@ -3,9 +3,9 @@
 #define ISOPHOTE_GEOMETRY_SURFACE_GLSL
 
 #include "geometry/attributes.glsl"
-#include "geometry/exact_product.glsl"
 #include "geometry/instance_map.glsl"
 #include "geometry/ray_offset.glsl"
+#include "geometry/triangle_normal.glsl"
 #include "math/normalize.glsl"
 
 struct SurfaceHit {
@@ -25,26 +25,6 @@ struct SurfaceHit {
   float area;     // of the triangle in world space
   bool frontFace; // ng is the front's: counter-clockwise as seen in object space
 };
-
-// scale^2 times the cross product of a triangle's edges, scale a power of two that keeps it from under- and overflow.
-struct EdgeCross {
-  vec3 value;
-  float scale;
-};
-
-/// The cross product is taken at the vertex opposite to the longest edge: for needles of any aspect the result is then
-/// as good as the vertices are.
-/// @param e01, e12, e20  edges of the triangle, head to tail
-EdgeCross crossEdges(const vec3 e01, const vec3 e12, const vec3 e20) {
-  const vec3 extent = max(abs(e01), max(abs(e12), abs(e20)));
-  const float scale = powerOfTwoInverse(max(extent.x, max(extent.y, extent.z)));
-  const vec3 a = scale * e01;
-  const vec3 b = scale * e12;
-  const vec3 c = scale * e20;
-  const vec3 squares = vec3(dot(a, a), dot(b, b), dot(c, c));
-  if (squares.y >= squares.x && squares.y >= squares.z) return EdgeCross(exactCross(c, a), scale);
-  return EdgeCross(squares.z >= squares.x ? exactCross(a, b) : exactCross(b, c), scale);
-}
 
 // Area in world space.
 float worldArea(const Affine worldFromObject, const vec3 e01, const vec3 e12, const vec3 e20) {

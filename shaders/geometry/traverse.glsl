@@ -61,7 +61,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
   uint instance = kTopLevel;
   const BoxRay worldRay = makeBoxRay(origin, direction, reachOf(nodes.items[0], origin));
   BoxRay boxRay = worldRay;
-  TriangleRay triangleRay = TriangleRay(vec3(0.0), vec3(0.0), 0u);
+  TriangleRay triangleRay = TriangleRay(vec3(0.0), vec3(0.0), vec3(0.0), 0u);
   uint work = 0u; // the root
 
   while (true) {

@@ -15,7 +15,9 @@ void main() {
   const vec3 direction = RayRef(pc.rays).items[slot].direction;
   const float pdfBsdf = paths.items[slot].pdfSolidAngle;
   const float pdfLight = pdfBsdf > 0.0 ? environmentHitPdf(scene, direction) : 0.0;
-  const vec3 Le = environmentRadiance(scene, direction);
-  paths.items[slot].radiance += paths.items[slot].beta * Le * emissionWeight(pdfBsdf, pdfLight);
+  if (scene.view.environment.width != 0u) { // absent under an all-features kernel
+    const vec3 Le = environmentRadiance(scene, direction);
+    paths.items[slot].radiance += paths.items[slot].beta * Le * emissionWeight(pdfBsdf, pdfLight);
+  }
   pushSlot(kQueueFinished, slot);
 }

@@ -11,6 +11,7 @@
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
 #include "render/wavefront_kernels.hpp"
+#include "shared/geometry_types.h"
 #include "shared/path_types.h"
 #include "support/gpu_device.hpp"
 #include "upload/gpu_scene.hpp"
@@ -23,7 +24,7 @@ public:
 
   Stage(const Scene& scene, uint32_t capacity, const FilmOptions& filmOptions = {.width = 4, .height = 4})
       : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions), pool(gpuDevice(), capacity, true),
-        kernels(makeWavefrontKernels(gpuDevice(), FeatureSet::all(), {}, kWorkgroup, gpuScene.impl().textures.layout())),
+        kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)),
         rays(capacity), hits(capacity), paths(capacity), shadows(capacity) {
     for (auto& queue : queues) queue.resize(capacity);
     view.replicates = film.impl().replicates.address();
@@ -46,7 +47,7 @@ public:
     for (uint32_t i = 0; i < repeats; ++i) {
       commands.begin();
       const gpu::KernelArgs args = arguments(prepare);
-      commands.dispatch(kernel, &args, sizeof(args), gpuScene.impl().textures.set(), groups);
+      commands.dispatch(kernel, &args, sizeof(args), VK_NULL_HANDLE, groups);
       commands.submitAndWait();
     }
     transfer(false);
@@ -72,6 +73,13 @@ public:
   std::vector<gpu::ShadowState> shadows;
 
 private:
+  // The scenes of these tests have none, and a kernel that reads them would need some.
+  [[nodiscard]] static FeatureSet withoutTextures() {
+    FeatureSet features = FeatureSet::all();
+    features.remove(Feature::kHasTextures);
+    return features;
+  }
+
   [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const {
     return {.scene = gpuScene.impl().view.address(),
             .render = pool.render.address(),

@@ -82,7 +82,8 @@ TEST(Regenerate, StartsEachPixelSampleOnceAndParksPadding) {
   stage.view.paddedPixelCount = 32;
   stage.view.firstSample = 40;
   stage.view.camera = cameraRecord({}, 5, 3, {});
-  gpu::writeBuffer(gpuDevice(), stage.pool.filterTable, 0, std::as_bytes(std::span(filterTable(PixelFilter::Box))));
+  const std::vector<float> box = filterTable(PixelFilter::Box);
+  gpu::writeBuffer(gpuDevice(), stage.pool.filterTable, 0, std::as_bytes(std::span(box)));
   const uint32_t items = 96; // three samples of every padded pixel
   std::iota(stage.queues[gpu::kQueueFree].begin(), stage.queues[gpu::kQueueFree].end(), 0u);
   stage.wave.counts[gpu::kQueueFree] = 200 - items;

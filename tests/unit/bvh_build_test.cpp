@@ -69,11 +69,6 @@ uint32_t checkTree(const std::vector<Box>& boxes, const Bvh& bvh, uint32_t maxLe
   return depth;
 }
 
-double halfArea(const Box& box) {
-  const glm::dvec3 e = glm::dvec3(box.upper) - glm::dvec3(box.lower);
-  return e.x * e.y + e.y * e.z + e.z * e.x;
-}
-
 // Cost of the tree that always halves the items along the widest axis of their centers.
 double medianSplitCost(std::vector<Box>& boxes, size_t first, size_t count, double rootArea) {
   Box bounds, centers;

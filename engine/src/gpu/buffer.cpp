@@ -53,7 +53,7 @@ void Buffer::create(Memory memory) {
   memory_ = allocation.memory;
   memoryBytes_ = allocation.bytes;
   check(vkBindBufferMemory(device_->handle, buffer_, memory_, 0), "vkBindBufferMemory");
-  if (allocation.hostVisible) {
+  if (memory == Memory::Host || (device_->unifiedMemory && allocation.hostVisible)) {
     void* pointer = nullptr;
     check(vkMapMemory(device_->handle, memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "vkMapMemory");
     direct_ = static_cast<std::byte*>(pointer);

@@ -5,6 +5,7 @@
 #include "gpu/device_impl.hpp"
 #include "gpu/vulkan_check.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -12,10 +13,22 @@ namespace isophote::gpu {
 namespace {
 
 constexpr uint32_t kMaxPushBytes = 128; // what every Vulkan device offers
+constexpr size_t kHeaderWords = 5;      // SPIR-V 1.6, section 2.3
+
+/// Product of the local size, which specializeSpirv leaves as literals.
+uint64_t workgroupInvocations(std::span<const uint32_t> spirv) {
+  constexpr uint32_t kOpExecutionMode = 16;
+  constexpr uint32_t kModeLocalSize = 17;
+  for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
+    if ((spirv[at] & 0xffffu) == kOpExecutionMode && spirv[at + 2] == kModeLocalSize) {
+      return uint64_t{spirv[at + 3]} * spirv[at + 4] * spirv[at + 5];
+    }
+  }
+  return 0;
+}
 
 /// Whether any variable of the module is decorated with a descriptor set.
 bool hasDescriptors(std::span<const uint32_t> spirv) {
-  constexpr size_t kHeaderWords = 5;
   constexpr uint32_t kOpDecorate = 71;
   constexpr uint32_t kDecorationDescriptorSet = 34;
   for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
@@ -74,6 +87,12 @@ void Kernel::build(const KernelSource& source, std::span<const SpecConstant> con
   const std::vector<uint32_t> spirv = specializeSpirv(source.spirv, constants);
   spirvBytes_ = static_cast<uint32_t>(spirv.size() * sizeof(uint32_t));
   usesTextures_ = hasDescriptors(spirv);
+  const uint32_t groupLimit =
+      std::min(device_->limits.maxComputeWorkGroupInvocations, device_->limits.maxComputeWorkGroupSize[0]);
+  if (const uint64_t invocations = workgroupInvocations(spirv); invocations == 0 || invocations > groupLimit) {
+    throw LimitError("kernel " + name_ + " asks for workgroups of " + std::to_string(invocations) + "; " +
+                     device_->info.name + " runs 1 to " + std::to_string(groupLimit));
+  }
   if (usesTextures_ && !textureLayout) throw Error("kernel " + name_ + " reads textures, but there are none");
   layout_ = createLayout(*device_, usesTextures_ ? textureLayout : VK_NULL_HANDLE, pushBytes_);
   pipeline_ = createPipeline(*device_, spirv, layout_);

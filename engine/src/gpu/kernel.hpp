@@ -1,4 +1,4 @@
-// A compute kernel: embedded SPIR-V, specialised, with push constants and at most the texture array as descriptors.
+// A compute kernel: embedded SPIR-V, specialized, with push constants and at most the texture array as descriptors.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ struct SpecConstant {
 class Kernel {
 public:
   Kernel() = default;
-  /// Specialises `source` by `constants` (constant 0 is the workgroup size) and builds the pipeline.
-  /// @param textureLayout  set 0, or null where the specialised module reads no texture
+  /// Specializes `source` by `constants` (constant 0 is the workgroup size) and builds the pipeline.
+  /// @param textureLayout  set 0, or null where the specialized module reads no texture
   /// @param pushBytes      size of the push-constant block, <= 128
   Kernel(const Device& device, const KernelSource& source, std::span<const SpecConstant> constants,
          VkDescriptorSetLayout textureLayout, uint32_t pushBytes);
@@ -46,7 +46,7 @@ public:
   [[nodiscard]] uint32_t pushBytes() const { return pushBytes_; }
   [[nodiscard]] uint32_t spirvBytes() const { return spirvBytes_; }
   [[nodiscard]] double compileMilliseconds() const { return compileMilliseconds_; }
-  [[nodiscard]] bool usesTextures() const { return usesTextures_; } ///< the specialised module declares set 0
+  [[nodiscard]] bool usesTextures() const { return usesTextures_; } ///< the specialized module declares set 0
 
 private:
   void build(const KernelSource& source, std::span<const SpecConstant> constants, VkDescriptorSetLayout textureLayout);

@@ -47,6 +47,8 @@ struct PathTracer::Impl {
   uint32_t workgroupSize;
   Clock::time_point constructed = Clock::now();
 
+  /// One white texel, bound where an all-features kernel runs on a scene without textures.
+  gpu::TextureArray placeholderTextures;
   std::optional<WavefrontKernels> kernels;
   FeatureSet kernelFeatures;
   std::optional<PathPool> pool;
@@ -66,6 +68,9 @@ struct PathTracer::Impl {
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
         commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
 
+  [[nodiscard]] const gpu::TextureArray& textures() const {
+    return placeholderTextures.size() > 0 ? placeholderTextures : scene.impl().textures;
+  }
   void makeKernels(const Camera& camera);
   void writeRenderView(const Camera& camera, SampleRange range);
   void dispatch(const gpu::Kernel& kernel, uint32_t prepare, uint32_t stage);
@@ -90,7 +95,12 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   }
   if (kernels && features == kernelFeatures) return;
   const auto start = Clock::now();
-  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, scene.impl().textures.layout());
+  if (features.has(Feature::kHasTextures) && scene.impl().textures.size() == 0) {
+    const ImageData white{.name = "placeholder", .width = 1, .height = 1, .pixels = std::vector(4, std::byte{255})};
+    const gpu::TextureUpload upload{.image = &white};
+    placeholderTextures = gpu::TextureArray(device, {&upload, 1});
+  }
+  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout());
   kernelFeatures = features;
   totals.compileSeconds += secondsSince(start);
   if (!pool) {
@@ -160,7 +170,7 @@ void PathTracer::Impl::recordPrepare(uint32_t part) {
 void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t prepare, uint32_t stage) {
   const gpu::KernelArgs args = arguments(prepare);
   const uint64_t offset = offsetof(gpu::WaveState, dispatches) + stage * sizeof(gpu::DispatchSize);
-  commands.dispatchIndirect(kernel, &args, sizeof(args), scene.impl().textures.set(), pool->wave, offset);
+  commands.dispatchIndirect(kernel, &args, sizeof(args), textures().set(), pool->wave, offset);
 }
 
 void PathTracer::Impl::recordWave() {

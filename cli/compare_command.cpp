@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "exit_codes.hpp"
+#include "isophote/compare.hpp"
+
+namespace isophote::cli {
+namespace {
+
+struct CompareOptions {
+  std::string test;
+  std::string reference;
+  std::string heatmap;
+  bool json = false;
+};
+
+/// Black over purple and orange to white, rising in lightness.
+glm::vec3 heat(float value) {
+  constexpr glm::vec3 kStops[] = {
+      {0, 0, 0}, {0.3f, 0.05f, 0.45f}, {0.75f, 0.2f, 0.4f}, {0.98f, 0.6f, 0.3f}, {1, 1, 0.85f}};
+  constexpr int kIntervals = 4;
+  const float position = std::clamp(value, 0.0f, 1.0f) * kIntervals;
+  const int stop = std::min(static_cast<int>(position), kIntervals - 1);
+  return glm::mix(kStops[stop], kStops[stop + 1], position - static_cast<float>(stop));
+}
+
+void writeHeatmap(const std::string& file, const std::vector<float>& map, uint32_t width, uint32_t height) {
+  Image image{.width = width, .height = height};
+  for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, std::vector<float>(map.size())});
+  for (size_t i = 0; i < map.size(); ++i) {
+    const glm::vec3 color = heat(map[i]);
+    for (int c = 0; c < 3; ++c) image.channels[static_cast<size_t>(c)].values[i] = color[c];
+  }
+  writePng(file, image, 0, ToneMap::Linear); // the stops are display values
+}
+
+/// JSON knows no NaN; null says that there is no number.
+nlohmann::ordered_json numberOrNull(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+void printJson(const CompareOptions& options, const Comparison& comparison) {
+  nlohmann::ordered_json json = {{"schema", 1},
+                                 {"test", options.test},
+                                 {"reference", options.reference},
+                                 {"relMSE", numberOrNull(comparison.relMse)},
+                                 {"rmse", numberOrNull(comparison.rmse)},
+                                 {"flip", numberOrNull(comparison.flip)}};
+  if (comparison.verdict) {
+    json["verdict"] = {{"same", comparison.verdict->same},
+                       {"p", comparison.verdict->p},
+                       {"passing_fraction", comparison.verdict->passingFraction},
+                       {"failing_blocks", comparison.verdict->failingBlocks}};
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+void printText(const Comparison& comparison) {
+  fmt::print("relMSE  {:.6g}\nRMSE    {:.6g}\nFLIP    {:.6g}\n", comparison.relMse, comparison.rmse, comparison.flip);
+  if (!comparison.verdict) {
+    fmt::print("verdict none: an image has no error bars (stderr.R, .G, .B)\n");
+    return;
+  }
+  const Verdict& verdict = *comparison.verdict;
+  fmt::print("verdict {} (p = {:.3g}, {:.4f}% of the values pass, {} blocks differ)\n",
+             verdict.same ? "same" : "different", verdict.p, 100 * verdict.passingFraction, verdict.failingBlocks);
+}
+
+int runCompare(const CompareOptions& options) {
+  if (!options.heatmap.empty()) checkWritable(options.heatmap);
+  const Image test = readExr(options.test);
+  const Comparison comparison = compareImages(test, readExr(options.reference));
+  if (!options.heatmap.empty()) writeHeatmap(options.heatmap, comparison.flipMap, test.width, test.height);
+  options.json ? printJson(options, comparison) : printText(comparison);
+  return comparison.verdict && !comparison.verdict->same ? kFailed : kDone;
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("compare", "Measure how different two images are, and whether that is more than noise");
+  const auto options = std::make_shared<CompareOptions>();
+  command->add_option("TEST", options->test, "OpenEXR image")->required();
+  command
+      ->add_option("REFERENCE", options->reference,
+                   "OpenEXR image of the same size; relative errors are relative to it")
+      ->required();
+  command->add_flag("--json", options->json, "Machine-readable");
+  command->add_option("--heatmap", options->heatmap, "Write the FLIP error map as PNG, black for no difference")
+      ->type_name("F.png");
+  command->footer(R"(Examples:
+  isophote compare new.exr reference.exr
+  isophote compare new.exr reference.exr --json --heatmap difference.png
+
+Where both images carry error bars, the verdict tests at family-wise significance 0.001 that they show the same: 99.9% of
+the values must agree within their errors, and so must every block of 4x4 pixels and more. Exit code 0: same, or no error
+bars; 1: different.)");
+  command->callback([options, &action] { action = [options] { return runCompare(*options); }; });
+}
+
+} // namespace isophote::cli

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "exit_codes.hpp"
+#include "interrupt.hpp"
+#include "isophote/error.hpp"
+#include "render_options.hpp"
+#include "render_report.hpp"
+#include "scene_files.hpp"
+
+namespace isophote::cli {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  isophote render scene.glb -o image.exr -o image.png
+  isophote render scene.glb -o image.exr --target-error 2% --time 600     whichever comes first; exit code 8 if it is the time
+  isophote render model.glb -o image.png --env sky.hdr --env-rotation 90 --exposure -1 --tonemap agx
+  isophote render model.glb -o image.png --env-color 1,1,1                for an asset without lights
+  isophote render scene.glb -o part.exr --sample-range 64:128             the second 64 samples, for another machine
+  isophote render scene.glb -o direct.exr --max-depth 1 --stats stats.json
+
+Ctrl-C ends the render and saves the image (exit code 130); a second one aborts.)";
+
+class Stopwatch {
+public:
+  /// Seconds since construction or the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+bool isPng(const std::string& file) { return std::filesystem::path(file).extension() == ".png"; }
+
+void checkOutputs(const RenderOptions& options) {
+  std::vector<std::string> files = options.outputs;
+  for (const std::string& file : files) {
+    const auto extension = std::filesystem::path(file).extension();
+    if (extension != ".exr" && extension != ".png")
+      throw UsageError(fmt::format("--output: '{}' is neither .exr nor .png", file));
+  }
+  if (!options.statsFile.empty()) files.push_back(options.statsFile);
+  for (size_t i = 0; i < files.size(); ++i) {
+    if (std::find(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), files[i]) !=
+        files.begin() + static_cast<std::ptrdiff_t>(i)) {
+      throw UsageError(fmt::format("'{}' is given as output twice", files[i]));
+    }
+    checkWritable(files[i]);
+  }
+}
+
+void refuseOverwritingInputs(const RenderOptions& options, const LoadedScene& loaded) {
+  for (const std::string& file : options.outputs) refuseOverwriting(file, loaded.files);
+  if (!options.statsFile.empty()) refuseOverwriting(options.statsFile, loaded.files);
+}
+
+nlohmann::ordered_json environmentJson(const EnvironmentOptions& options) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (!options.file.empty()) json["file"] = options.file;
+  if (options.color) json["color"] = {options.color->r, options.color->g, options.color->b};
+  if (options.intensity) json["intensity"] = *options.intensity;
+  if (options.rotationDegrees) json["rotation_degrees"] = *options.rotationDegrees;
+  return json;
+}
+
+void warnAboutScene(const Scene& scene) {
+  for (const std::string& warning : scene.warnings) printWarning(warning);
+  if (!hasLight(scene)) {
+    printWarning("nothing in the scene gives light, the image will be black: add --env-color 1,1,1 or --env sky.hdr");
+  }
+}
+
+void warnAboutStatus(const StatusCounters& status) {
+  if (status.total() == 0) return;
+  std::string text;
+  const auto counters = statusJson(status);
+  for (const auto& [name, count] : counters.items()) {
+    if (count.get<uint64_t>() > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count.get<uint64_t>());
+  }
+  printWarning("the render dropped or changed samples: " + text);
+}
+
+/// What the sample counts of the pixels say was done.
+void countSamples(const Image& image, const SampleRange& asked, RenderReport& report) {
+  const Channel* counts = image.find("sampleCount.Y");
+  if (counts == nullptr || counts->values.empty()) throw Error("the film resolved without sample counts");
+  const auto [fewest, most] = std::minmax_element(counts->values.begin(), counts->values.end());
+  report.samplesPerPixel = static_cast<uint32_t>(*fewest);
+  report.samples = {asked.first, asked.first + static_cast<uint32_t>(*most)};
+}
+
+void writeImages(const RenderOptions& options, const Image& image, bool environment) {
+  Image opaque;
+  for (const std::string& file : options.outputs) {
+    if (!isPng(file)) {
+      writeExr(file, image);
+      continue;
+    }
+    // Alpha is coverage by geometry; where an environment shows, the picture is opaque all the same.
+    if (!environment) {
+      writePng(file, image, options.exposureEv, options.toneMap);
+      continue;
+    }
+    if (opaque.channels.empty()) {
+      opaque = image;
+      std::erase_if(opaque.channels, [](const Channel& channel) { return channel.name == "A"; });
+    }
+    writePng(file, opaque, options.exposureEv, options.toneMap);
+  }
+}
+
+void describeStart(const RenderReport& report) {
+  fmt::print("{}: {} triangles, {} with instances; BVH in {:.2f} s\n", report.scene, report.sceneStatistics.triangles,
+             report.sceneStatistics.instancedTriangles, report.seconds.bvh);
+  fmt::print("device: {} ({}), {}\n", report.device.name, report.device.kind, report.device.driver);
+  fmt::print("features: {}\n", fmt::join(report.features.names(), ", "));
+  std::fflush(stdout); // a log should say so before the hours of rendering
+}
+
+void describeResult(const RenderOptions& options, const RenderReport& report) {
+  std::string error = "error unknown (one replicate)";
+  const ErrorEstimate& e = report.result.error;
+  if (e.known)
+    error = fmt::format("error {:.3g}% (95%: {:.3g} to {:.3g}%)", 100 * e.value, 100 * e.lower, 100 * e.upper);
+  fmt::print("{} x {} pixels, {} spp, {}, {:.2f} s: {}\n", report.view.width, report.view.height,
+             report.samplesPerPixel, error, report.seconds.render, fmt::join(options.outputs, ", "));
+}
+
+int finish(const RenderOptions& options, const RenderReport& report, const VulkanInstance& instance) {
+  warnAboutStatus(report.statistics.status);
+  const std::vector<std::string> messages = instance.validationMessages();
+  for (const std::string& message : messages) printWarning("validation: " + message);
+  if (report.result.outcome == Outcome::Interrupted) {
+    printError("interrupted; the image so far is saved");
+    return kInterrupted;
+  }
+  if (!messages.empty()) return kFailed;
+  if (report.result.outcome == Outcome::BudgetEnded) {
+    printError(fmt::format("the budget ended at an error of {:.3g}%, above the target of {:.3g}%; the image is saved",
+                           100 * report.result.error.upper, 100 * *options.targetError));
+    return kBudgetEnded;
+  }
+  return kDone;
+}
+
+int runRender(const RenderOptions& options) {
+  catchInterrupts();
+  checkOutputs(options);
+  Stopwatch watch;
+  RenderReport report{
+      .scene = options.scene, .settings = options.settings, .environment = environmentJson(options.environment)};
+
+  LoadedScene loaded = loadScene(options.scene, options.environment);
+  refuseOverwritingInputs(options, loaded);
+  warnAboutScene(loaded.scene);
+  report.view = chooseView(loaded.scene, options.camera, options.width, options.height);
+  report.sceneHash = hashFiles(loaded.files);
+  report.seconds.load = watch.lap();
+
+  const VulkanInstance instance({.validation = options.validation});
+  const Device device(instance, {.selector = options.device});
+  report.device = device.info();
+  const GpuScene scene(device, loaded.scene);
+  const bool environment = loaded.scene.environment.has_value();
+  loaded = {}; // the device has its own copy
+  report.sceneStatistics = scene.statistics();
+  report.seconds.bvh = report.sceneStatistics.bvhSeconds;
+  report.seconds.upload = report.sceneStatistics.packSeconds + report.sceneStatistics.uploadSeconds;
+  Film film(device, {.width = report.view.width, .height = report.view.height, .crop = options.crop});
+  report.crop = film.options().crop;
+  report.filmBytes = film.bytes();
+  PathTracer tracer(device, scene, options.settings.estimator, options.settings.execution);
+  report.features = tracer.features();
+  if (options.verbose) describeStart(report);
+
+  if (interrupted()) {
+    printError("interrupted before the first sample; nothing is written");
+    return kInterrupted;
+  }
+  const StopRule rule = options.stopRule();
+  {
+    ProgressLine progress(options.quiet);
+    report.result = renderUntil(tracer, report.view.camera, film, rule, progress);
+  }
+  report.statistics = tracer.statistics();
+  report.features = tracer.features();
+  report.seconds.compile = report.statistics.compileSeconds;
+  report.seconds.render = report.statistics.renderSeconds;
+
+  watch.lap();
+  Image image = film.resolve();
+  countSamples(image, rule.samples, report);
+  image.attributes = imageAttributes(report);
+  image.renderSeconds = static_cast<float>(report.seconds.render);
+  writeImages(options, image, environment);
+  report.seconds.write = watch.lap();
+  if (!options.statsFile.empty()) {
+    writeFileAtomically(options.statsFile,
+                        statsJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  }
+  if (!options.quiet) describeResult(options, report);
+  return finish(options, report, instance);
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("render", "Render a glTF scene to OpenEXR and PNG");
+  const auto options = std::make_shared<RenderOptions>();
+  addRenderFlags(*command, *options);
+  command->footer(kExamples);
+  command->callback([options, &action] { action = [options] { return runRender(*options); }; });
+}
+
+} // namespace isophote::cli

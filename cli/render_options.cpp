@@ -1,0 +1,144 @@
+#include "render_options.hpp"
+
+#include <limits>
+
+#include "isophote/error.hpp"
+#include "parse.hpp"
+
+namespace isophote::cli {
+namespace {
+
+constexpr uint32_t kDefaultSamples = 64;
+constexpr uint32_t kMaxSamples = std::numeric_limits<uint32_t>::max();
+
+ToneMap toneMapFromName(const std::string& name) {
+  if (name == "neutral") return ToneMap::Neutral;
+  if (name == "agx") return ToneMap::Agx;
+  if (name == "aces") return ToneMap::Aces;
+  if (name == "srgb") return ToneMap::Srgb;
+  if (name == "linear") return ToneMap::Linear;
+  throw UsageError("'" + name + "' is none of neutral, agx, aces, srgb, linear");
+}
+
+void addImageFlags(CLI::App& command, RenderOptions& options) {
+  constexpr const char* kGroup = "Image";
+  const auto side = [](const std::string& text) { return static_cast<uint32_t>(parseUnsigned(text, 1, 65535)); };
+  addValue(
+      command, "--width", "N", [&options, side](const std::string& text) { options.width = side(text); },
+      "Pixels (1280, or from --height and the camera's aspect)")
+      ->group(kGroup);
+  addValue(
+      command, "--height", "N", [&options, side](const std::string& text) { options.height = side(text); },
+      "Pixels (from the width and the camera's aspect)")
+      ->group(kGroup);
+  addValue(
+      command, "--camera", "NAME|INDEX", [&options](const std::string& text) { options.camera = text; },
+      "Camera of the asset (the first; one that frames the scene where there is none)")
+      ->group(kGroup);
+  addValue(
+      command, "--crop", "X0,Y0,X1,Y1", [&options](const std::string& text) { options.crop = parseCrop(text); },
+      "Render these pixels of the full image only; y runs down, X1 and Y1 are beyond the last")
+      ->group(kGroup);
+  addValue(
+      command, "--exposure", "EV",
+      [&options](const std::string& text) { options.exposureEv = static_cast<float>(parseNumber(text, -100, 100)); },
+      "Exposure of PNG files in stops (0)")
+      ->group(kGroup);
+  addValue(
+      command, "--tonemap", "NAME", [&options](const std::string& text) { options.toneMap = toneMapFromName(text); },
+      "For PNG: neutral (Khronos PBR Neutral, default), agx, aces, srgb, linear")
+      ->group(kGroup);
+}
+
+void addStopFlags(CLI::App& command, RenderOptions& options) {
+  constexpr const char* kGroup = "When to stop";
+  CLI::Option* samples = addValue(
+      command, "--spp,--samples", "N",
+      [&options](const std::string& text) {
+        options.samplesPerPixel = static_cast<uint32_t>(parseUnsigned(text, 1, kMaxSamples));
+      },
+      "Samples per pixel (64 when no other stop is given)");
+  samples->group(kGroup);
+  addValue(
+      command, "--sample-range", "A:B",
+      [&options](const std::string& text) { options.sampleRange = parseSampleRange(text); },
+      "Samples A to B-1 only, for shards")
+      ->excludes(samples)
+      ->group(kGroup);
+  addValue(
+      command, "--target-error", "P", [&options](const std::string& text) { options.targetError = parseShare(text); },
+      "Stop when the image's relative RMS error is below P with 95% confidence: 2% or 0.02")
+      ->group(kGroup);
+  addValue(
+      command, "--time", "SECONDS",
+      [&options](const std::string& text) { options.seconds = parseNumber(text, 1e-3, 1e9); },
+      "Stop after this much rendering")
+      ->group(kGroup);
+}
+
+void addEstimatorFlags(CLI::App& command, RenderOptions& options) {
+  constexpr const char* kGroup = "Estimator";
+  const auto addSetting = [&](const char* key, const char* type, const char* description) {
+    addValue(
+        command, std::string("--") + key, type,
+        [&options, key](const std::string& text) { setSetting(options.settings, key, text); }, description)
+        ->group(kGroup);
+  };
+  addSetting("max-depth", "N", "Scattering events on a path: 0 emission seen directly, 1 direct light (unlimited)");
+  addSetting("seed", "N", "64 bits (0)");
+  addSetting("filter", "NAME", "Pixel filter: box, gaussian, blackman-harris (default)");
+  addSetting("sampler", "NAME", "sobol (Owen-scrambled, default), independent");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&options](const std::vector<std::string>& assignments) {
+            for (const std::string& assignment : assignments) setSetting(options.settings, assignment);
+          },
+          "Any setting that `isophote settings` lists; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group(kGroup);
+  command
+      .add_flag_callback(
+          "--no-specialize", [&options] { options.settings.execution.specialize = false; },
+          "Kernels with every feature, not just those the scene needs")
+      ->group(kGroup);
+}
+
+} // namespace
+
+void addRenderFlags(CLI::App& command, RenderOptions& options) {
+  command.add_option("SCENE", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
+  command
+      .add_option("-o,--output", options.outputs,
+                  "Image to write: .exr (float32, linear, all layers) or .png; repeatable")
+      ->type_name("F")
+      ->required()
+      ->allow_extra_args(false);
+  addImageFlags(command, options);
+  addStopFlags(command, options);
+  addEstimatorFlags(command, options);
+  addEnvironmentFlags(command, options.environment);
+  command
+      .add_option("--device", options.device,
+                  "Vulkan device by part of its name, index, or cpu (the fastest kind present)")
+      ->type_name("NAME|INDEX|cpu");
+  command.add_option("--stats", options.statsFile, "Write times, rays, memory and error as JSON")->type_name("F.json");
+  command.add_flag("--quiet", options.quiet, "Print warnings and errors only");
+  command.add_flag("-v,--verbose", options.verbose, "Say what is loaded, built and used");
+  command.add_flag("--validation", options.validation, "Vulkan validation layers; any message makes the exit code 1");
+}
+
+StopRule RenderOptions::stopRule() const {
+  StopRule rule{.samples = {0, kMaxSamples}, .targetError = targetError, .seconds = seconds};
+  if (sampleRange) {
+    rule.samples = *sampleRange;
+  } else if (samplesPerPixel) {
+    rule.samples.last = *samplesPerPixel;
+  } else if (!targetError && !seconds) {
+    rule.samples.last = kDefaultSamples;
+  }
+  return rule;
+}
+
+} // namespace isophote::cli

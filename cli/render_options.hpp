@@ -1,0 +1,44 @@
+// The flags of `isophote render`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "isophote/image.hpp"
+#include "scene_source.hpp"
+#include "setting_table.hpp"
+#include "stop_rule.hpp"
+
+namespace isophote::cli {
+
+struct RenderOptions {
+  std::string scene;
+  std::vector<std::string> outputs;
+  std::string statsFile;
+  std::optional<uint32_t> width;
+  std::optional<uint32_t> height;
+  std::optional<std::string> camera;
+  PixelRect crop;
+  EnvironmentOptions environment;
+  std::optional<uint32_t> samplesPerPixel;
+  std::optional<SampleRange> sampleRange;
+  std::optional<double> targetError;
+  std::optional<double> seconds;
+  Settings settings;
+  float exposureEv = 0;
+  ToneMap toneMap = ToneMap::Neutral;
+  std::string device;
+  bool quiet = false;
+  bool verbose = false;
+  bool validation = false;
+
+  /// 64 samples where nothing else says when to stop.
+  [[nodiscard]] StopRule stopRule() const;
+};
+
+void addRenderFlags(CLI::App& command, RenderOptions& options);
+
+} // namespace isophote::cli

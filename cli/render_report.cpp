@@ -1,0 +1,165 @@
+#include "render_report.hpp"
+
+#include <fmt/format.h>
+
+#include "isophote/version.hpp"
+
+namespace isophote::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double totalRays(const RenderStatistics& statistics) {
+  return static_cast<double>(statistics.primaryRays + statistics.bounceRays + statistics.shadowRays);
+}
+
+Json errorJson(const ErrorEstimate& error) {
+  Json json = {{"metric", "relative RMS"}};
+  if (!error.known) {
+    json["value"] = nullptr; // fewer than two replicates hold samples
+    return json;
+  }
+  json["value"] = error.value;
+  json["interval"] = {error.lower, error.upper};
+  json["confidence"] = 0.95;
+  return json;
+}
+
+Json kernelsJson(const RenderStatistics& statistics) {
+  Json list = Json::array();
+  for (const KernelStatistics& kernel : statistics.kernels) {
+    list.push_back({{"name", kernel.name},
+                    {"dispatches", kernel.dispatches},
+                    {"ms", kernel.milliseconds},
+                    {"longest_ms", kernel.longestMilliseconds},
+                    {"compile_ms", kernel.compileMilliseconds},
+                    {"spirv_bytes", kernel.spirvBytes}});
+  }
+  return list;
+}
+
+Json buffersJson(const RenderReport& report) {
+  Json list = Json::array();
+  for (const auto* uses : {&report.sceneStatistics.buffers, &report.statistics.buffers}) {
+    for (const BufferUse& use : *uses) list.push_back({{"name", use.name}, {"bytes", use.bytes}});
+  }
+  return list;
+}
+
+Json leftOutJson(const FeatureSet& features) {
+  Json list = Json::array();
+  for (const FeatureDescription& description : allFeatures()) {
+    if (!features.has(description.feature))
+      list.push_back({{"feature", description.name}, {"omitted", description.omitted}});
+  }
+  return list;
+}
+
+/// 1 / (variance * time): what a method is worth, whatever the time spent.
+Json figureOfMerit(const RenderResult& result) {
+  if (!result.error.known || !(result.error.value > 0) || !(result.seconds > 0)) return nullptr;
+  return 1 / (result.error.value * result.error.value * result.seconds);
+}
+
+Json sizeJson(const RenderReport& report) {
+  return {{"width", report.view.width},
+          {"height", report.view.height},
+          {"crop", {report.crop.x0, report.crop.y0, report.crop.x1, report.crop.y1}}};
+}
+
+const char* outcomeName(Outcome outcome) {
+  switch (outcome) {
+  case Outcome::Completed:
+    return "completed";
+  case Outcome::BudgetEnded:
+    return "budget ended";
+  case Outcome::Interrupted:
+    return "interrupted";
+  }
+  return "";
+}
+
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+} // namespace
+
+Json statusJson(const StatusCounters& status) {
+  return {{"queue_overflow", status.queueOverflow},
+          {"stack_overflow", status.stackOverflow},
+          {"non_finite", status.nonFinite},
+          {"negative", status.negative},
+          {"clipped", status.clipped},
+          {"out_of_bounds", status.outOfBounds}};
+}
+
+Json statsJson(const RenderReport& report) {
+  const RenderStatistics& render = report.statistics;
+  const SceneStatistics& scene = report.sceneStatistics;
+  const double seconds = report.seconds.render;
+  Json bindings = Json::array();
+  if (render.textureBinding) bindings.push_back({{"name", "textures"}, {"set", 0}, {"binding", 0}});
+  return {{"schema", 1},
+          {"scene", report.scene},
+          {"device", report.device.name},
+          {"driver", report.device.driver},
+          {"features", report.features.names()},
+          {"kernels", kernelsJson(render)},
+          {"rays", {{"primary", render.primaryRays}, {"bounce", render.bounceRays}, {"shadow", render.shadowRays}}},
+          {"mrays_per_s", seconds > 0 ? totalRays(render) / seconds * 1e-6 : 0.0},
+          {"spp", report.samplesPerPixel},
+          {"seconds",
+           {{"load", report.seconds.load},
+            {"bvh", report.seconds.bvh},
+            {"upload", report.seconds.upload},
+            {"compile", report.seconds.compile},
+            {"render", seconds},
+            {"write", report.seconds.write},
+            {"first_pixel", render.firstPixelSeconds}}},
+          {"memory",
+           {{"scene_bytes", scene.sceneBytes},
+            {"texture_bytes", scene.textureBytes},
+            {"bvh_bytes", scene.bvhBytes},
+            {"queue_bytes", render.queueBytes},
+            {"film_bytes", report.filmBytes},
+            {"bytes_per_path", render.bytesPerPath}}},
+          {"bvh",
+           {{"triangles", scene.triangles},
+            {"instanced_triangles", scene.instancedTriangles},
+            {"nodes", scene.bvhNodes},
+            {"sah_cost", scene.sahCost},
+            {"max_depth", scene.bvhMaxDepth}}},
+          {"error", errorJson(report.result.error)},
+          {"bias", biasJson(report.settings)},
+          {"status", statusJson(render.status)},
+          {"figure_of_merit", figureOfMerit(report.result)},
+          {"outcome", outcomeName(report.result.outcome)},
+          {"image", sizeJson(report)},
+          {"sample_range", {report.samples.first, report.samples.last}},
+          {"settings", settingsJson(report.settings, false)},
+          {"execution", settingsJson(report.settings, true)},
+          {"path_pool_size", render.pathPoolSize},
+          {"workgroup_size", render.workgroupSize},
+          {"buffers", buffersJson(report)},
+          {"bindings", bindings},
+          {"scene_features_left_out", leftOutJson(report.features)}};
+}
+
+std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
+  Json settings = settingsJson(report.settings, false);
+  settings["image"] = sizeJson(report);
+  settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
+  settings["environment"] = report.environment;
+  return {{"isophote.version", kVersion},
+          {"isophote.scene", report.scene},
+          {"isophote.sceneHash", report.sceneHash},
+          {"isophote.settings", dump(settings)},
+          {"isophote.device", fmt::format("{}, {}", report.device.name, report.device.driver)},
+          {"isophote.features", dump(report.features.names())},
+          {"isophote.seed", std::to_string(report.settings.estimator.seed)},
+          {"isophote.sampleRange", fmt::format("{}:{}", report.samples.first, report.samples.last)},
+          {"isophote.error", dump(errorJson(report.result.error))},
+          {"isophote.bias", dump(biasJson(report.settings))},
+          {"isophote.status", dump(statusJson(report.statistics.status))}};
+}
+
+} // namespace isophote::cli

@@ -1,0 +1,54 @@
+// What a render says about itself: the stats file and the attributes of the EXR header.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "isophote/device.hpp"
+#include "isophote/path_tracer.hpp"
+#include "scene_source.hpp"
+#include "setting_table.hpp"
+#include "stop_rule.hpp"
+
+namespace isophote::cli {
+
+/// Wall-clock seconds of each phase.
+struct PhaseSeconds {
+  double load = 0;
+  double bvh = 0;
+  double upload = 0;
+  double compile = 0;
+  double render = 0;
+  double write = 0;
+};
+
+struct RenderReport {
+  std::string scene;
+  std::string sceneHash;
+  DeviceInfo device;
+  View view;
+  PixelRect crop;
+  Settings settings;
+  nlohmann::ordered_json environment; ///< as asked for on the command line
+  FeatureSet features;
+  SceneStatistics sceneStatistics;
+  RenderStatistics statistics;
+  RenderResult result;
+  SampleRange samples;          ///< that were started for at least one pixel
+  uint32_t samplesPerPixel = 0; ///< that every pixel has at least
+  uint64_t filmBytes = 0;
+  PhaseSeconds seconds;
+};
+
+/// Schema 1.
+[[nodiscard]] nlohmann::ordered_json statsJson(const RenderReport& report);
+
+/// isophote.version, .scene, .sceneHash, .settings, .device, .features, .seed, .sampleRange, .error, .bias, .status
+[[nodiscard]] std::map<std::string, std::string> imageAttributes(const RenderReport& report);
+
+/// The counters by name.
+[[nodiscard]] nlohmann::ordered_json statusJson(const StatusCounters& status);
+
+} // namespace isophote::cli

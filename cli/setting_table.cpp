@@ -1,0 +1,142 @@
+#include "setting_table.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "isophote/error.hpp"
+#include "parse.hpp"
+
+namespace isophote::cli {
+namespace {
+
+template <class T> using Names = std::vector<std::pair<const char*, T>>;
+
+template <class T> T fromName(const Names<T>& names, const std::string& text) {
+  std::string all;
+  for (const auto& [name, value] : names) {
+    if (text == name) return value;
+    all += (all.empty() ? "" : ", ") + std::string(name);
+  }
+  throw UsageError(fmt::format("'{}' is none of {}", text, all));
+}
+
+template <class T> std::string toName(const Names<T>& names, T wanted) {
+  for (const auto& [name, value] : names) {
+    if (value == wanted) return name;
+  }
+  throw Error("a setting without a name");
+}
+
+/// An entry whose value is one of a few names.
+template <class Part, class T>
+SettingEntry choice(SettingEntry entry, Part Settings::*part, T Part::*member, Names<T> names) {
+  entry.set = [=](Settings& settings, const std::string& text) { settings.*part.*member = fromName(names, text); };
+  entry.get = [=](const Settings& settings) { return toName(names, settings.*part.*member); };
+  return entry;
+}
+
+/// An entry that is a whole number, one of which has a name.
+template <class Part, class T>
+SettingEntry number(SettingEntry entry, Part Settings::*part, T Part::*member, uint64_t largest, const char* name,
+                    T namedValue) {
+  entry.set = [=](Settings& settings, const std::string& text) {
+    settings.*part.*member =
+        name != nullptr && text == name ? namedValue : static_cast<T>(parseUnsigned(text, 0, largest));
+  };
+  entry.get = [=](const Settings& settings) {
+    const T value = settings.*part.*member;
+    return name != nullptr && value == namedValue ? std::string(name) : std::to_string(value);
+  };
+  return entry;
+}
+
+std::vector<SettingEntry> makeTable() {
+  const Names<bool> onOff = {{"on", true}, {"off", false}};
+  using E = EstimatorSettings;
+  using X = ExecutionSettings;
+  const auto estimator = &Settings::estimator;
+  const auto execution = &Settings::execution;
+  return {
+      choice({"sampler", "sobol, independent", "sobol", "sobol",
+              "where random numbers come from (Owen-scrambled Sobol points)"},
+             estimator, &E::sampler, {{"sobol", SamplerKind::Sobol}, {"independent", SamplerKind::Independent}}),
+      choice({"filter", "box, gaussian, blackman-harris", "blackman-harris", "blackman-harris",
+              "pixel filter, importance sampled"},
+             estimator, &E::filter,
+             {{"box", PixelFilter::Box},
+              {"gaussian", PixelFilter::Gaussian},
+              {"blackman-harris", PixelFilter::BlackmanHarris}}),
+      number({"max-depth", "0 to 4294967294, unlimited", "unlimited", "4",
+              "scattering events on a path: 0 is emission seen directly, 1 direct light; a limit loses light (bias)"},
+             estimator, &E::maxDepth, kUnlimitedDepth - 1, "unlimited", kUnlimitedDepth),
+      choice({"light-sampling", "mis, lights, bsdf", "mis", "mis",
+              "next event estimation and BSDF sampling combined, or one alone"},
+             estimator, &E::lightSampling,
+             {{"mis", LightSampling::Mis}, {"lights", LightSampling::LightsOnly}, {"bsdf", LightSampling::BsdfOnly}}),
+      choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
+             estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
+      choice(
+          {"russian-roulette", "on, off", "on", "on", "end dim paths at random, without bias; off needs a max-depth"},
+          estimator, &E::russianRoulette, onOff),
+      number({"seed", "0 to 18446744073709551615", "0", "0", "another seed is another, independent image"}, estimator,
+             &E::seed, ~uint64_t{0}, nullptr, uint64_t{0}),
+      number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", true}, execution,
+             &X::pathPoolSize, 1u << 22, "auto", uint32_t{0}),
+      number({"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup", true}, execution,
+             &X::workgroupSize, 1024, "auto", uint32_t{0}),
+      choice({"specialize", "on, off", "on", "on", "kernels without what the scene does not use", true}, execution,
+             &X::specialize, onOff),
+  };
+}
+
+} // namespace
+
+const std::vector<SettingEntry>& settingTable() {
+  static const std::vector<SettingEntry> table = makeTable();
+  return table;
+}
+
+void setSetting(Settings& settings, const std::string& key, const std::string& value) {
+  std::string keys;
+  for (const SettingEntry& entry : settingTable()) {
+    if (key == entry.key) {
+      entry.set(settings, value);
+      return;
+    }
+    keys += (keys.empty() ? "" : ", ") + std::string(entry.key);
+  }
+  throw UsageError(fmt::format("no setting '{}'; there are {}", key, keys));
+}
+
+void setSetting(Settings& settings, const std::string& assignment) {
+  const size_t equals = assignment.find('=');
+  if (equals == std::string::npos) throw UsageError(fmt::format("'{}' is not of the form key=value", assignment));
+  const std::string key = assignment.substr(0, equals);
+  try {
+    setSetting(settings, key, assignment.substr(equals + 1));
+  } catch (const UsageError& error) {
+    throw UsageError(key + ": " + error.what());
+  }
+}
+
+nlohmann::ordered_json settingsJson(const Settings& settings, bool execution) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const SettingEntry& entry : settingTable()) {
+    if (entry.execution == execution) json[entry.key] = entry.get(settings);
+  }
+  return json;
+}
+
+nlohmann::ordered_json biasJson(const Settings& settings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (settings.estimator.maxDepth != kUnlimitedDepth) {
+    json["max-depth"] = {
+        {"value", settings.estimator.maxDepth},
+        {"exact", "unlimited"},
+        {"leaves_out", fmt::format("light after more than {} scattering events", settings.estimator.maxDepth)}};
+  }
+  return json;
+}
+
+} // namespace isophote::cli

@@ -1,0 +1,39 @@
+// When a render ends.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "isophote/path_tracer.hpp"
+#include "progress_line.hpp"
+
+namespace isophote::cli {
+
+struct StopRule {
+  SampleRange samples;               ///< at most these
+  std::optional<double> targetError; ///< relative RMS error; reached when its 95% interval lies below
+  std::optional<double> seconds;     ///< of rendering, compilation excluded
+};
+
+enum class Outcome {
+  Completed,   ///< all samples, the target error, or the time where no target was given
+  BudgetEnded, ///< samples or time, before the target error
+  Interrupted
+};
+
+struct RenderResult {
+  Outcome outcome = Outcome::Completed;
+  double seconds = 0;
+  ErrorEstimate error; ///< at the end
+};
+
+/// Renders until the rule or the user says stop.
+///
+/// With a target error, samples are taken in passes of whole rounds over the replicates, each a quarter of what there
+/// is, and the error is looked at between passes only. So where a render stops depends on the scene and seed, not on
+/// the machine's speed, and every replicate holds the same number of samples.
+[[nodiscard]] RenderResult renderUntil(PathTracer& tracer, const Camera& camera, Film& film, const StopRule& rule,
+                                       ProgressLine& progress);
+
+} // namespace isophote::cli

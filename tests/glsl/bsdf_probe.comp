@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "bsdf/metallic_roughness.glsl"
+#include "glsl/bsdf_case.h"
+#define PROBE_INPUT BsdfCase
+#define PROBE_OUTPUT BsdfResult
+#include "support/probe_main.glsl"
+
+BsdfResult probe(const BsdfCase c) {
+  SceneRef scene = SceneRef(pc.extra);
+  const MetallicRoughness m =
+      metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
+  BsdfResult result;
+  result.fCos = evalBsdf(scene, m, c.wo, c.wi);
+  result.pdf = pdfBsdf(scene, m, c.wo, c.wi);
+  const BsdfSample drawn = sampleBsdf(scene, m, c.wo, c.uLobe, c.u);
+  result.sampledWi = drawn.wiLocal;
+  result.weight = drawn.weight;
+  result.sampledPdf = drawn.pdfSolidAngle;
+  result.fCosSampled = evalBsdf(scene, m, c.wo, drawn.wiLocal);
+  result.pdfAtSampled = pdfBsdf(scene, m, c.wo, drawn.wiLocal);
+  result.flags = (drawn.delta ? kBsdfDelta : 0u) | (drawn.valid ? kBsdfValid : 0u);
+  return result;
+}

@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "bsdf/material.glsl"
+#include "glsl/material_case.h"
+#define PROBE_INPUT MaterialCase
+#define PROBE_OUTPUT MaterialResult
+#include "support/probe_main.glsl"
+
+MaterialResult probe(const MaterialCase c) {
+  SceneRef scene = SceneRef(pc.extra);
+  SurfaceHit surface;
+  surface.ng = c.ng;
+  surface.ns = c.ns;
+  surface.tangent = c.tangent;
+  surface.barycentrics = c.barycentrics;
+  surface.material = c.material;
+  surface.geometry = 0u;
+  surface.primitiveIndex = 0u;
+  surface.frontFace = c.frontFace != 0u;
+  const SurfaceMaterial material = materialAt(scene, surface);
+  MaterialResult result;
+  result.baseColor = material.baseColor;
+  result.unlit = uint(material.unlit);
+  result.reflectance = material.bsdf.baseColor;
+  result.metallic = material.bsdf.metallic;
+  result.f0 = material.bsdf.f0;
+  result.alpha = material.bsdf.alpha;
+  result.f90 = material.bsdf.f90;
+  result.dielectricF0 = material.bsdf.dielectricF0;
+  result.dielectricF90 = material.bsdf.dielectricF90;
+  result.ns = shadingNormal(scene, surface, c.wo);
+  return result;
+}
