@@ -27,28 +27,33 @@ protected:
   }
 
   /// Arguments reach the program as they are, without a shell.
-  [[nodiscard]] CommandResult run(const std::vector<std::string>& arguments) const {
-    const auto outFile = path("stdout.txt");
-    const auto errFile = path("stderr.txt");
+  [[nodiscard]] CommandResult run(const std::vector<std::string>& arguments) const { return wait(start(arguments)); }
+
+  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
     const pid_t child = fork();
-    if (child == 0) {
-      std::vector<char*> argv = {const_cast<char*>(kBinary)};
-      for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-      argv.push_back(nullptr);
-      redirect(outFile, STDOUT_FILENO);
-      redirect(errFile, STDERR_FILENO);
-      execv(kBinary, argv.data());
-      _exit(126);
-    }
+    if (child != 0) return child;
+    std::vector<char*> argv = {const_cast<char*>(kBinary)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    redirect(outFile(getpid()), STDOUT_FILENO);
+    redirect(errFile(getpid()), STDERR_FILENO);
+    execv(kBinary, argv.data());
+    _exit(126);
+  }
+
+  [[nodiscard]] CommandResult wait(pid_t child) const {
     int status = 0;
     waitpid(child, &status, 0);
     CommandResult result{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status),
-                         .out = readBytes(outFile),
-                         .err = readBytes(errFile)};
-    std::filesystem::remove(outFile);
-    std::filesystem::remove(errFile);
+                         .out = output(child),
+                         .err = readBytes(errFile(child))};
+    std::filesystem::remove(outFile(child));
+    std::filesystem::remove(errFile(child));
     return result;
   }
+
+  /// What a running child has written to stdout so far.
+  [[nodiscard]] std::string output(pid_t child) const { return readBytes(outFile(child)); }
 
   /// One triangle in front of one camera, with one point light; `extra` goes into the asset's top level.
   [[nodiscard]] std::string writeTriangle(const std::string& name, const std::string& extra = "") const {
@@ -76,6 +81,9 @@ protected:
 
 private:
   static constexpr const char* kBinary = ISOPHOTE_BINARY_DIR "/bin/isophote";
+
+  [[nodiscard]] std::filesystem::path outFile(pid_t child) const { return path("stdout." + std::to_string(child)); }
+  [[nodiscard]] std::filesystem::path errFile(pid_t child) const { return path("stderr." + std::to_string(child)); }
 
   static void redirect(const std::filesystem::path& file, int descriptor) {
     const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);

@@ -22,10 +22,16 @@ struct SpecConstant {
   uint32_t value = 0; ///< bool as 0/1, int, uint, or the bits of a float
 };
 
+enum class FloatRounding : uint32_t {
+  Free,     ///< the driver may contract and re-associate, as GPUs need for speed
+  AsWritten ///< every operation rounds by itself: differently specialized kernels give the same bits
+};
+
 /// Freezes `constants` into the module and removes what they make unreachable (spirv-opt: freeze, fold, dead branch and
 /// dead code elimination), so that a feature a scene lacks leaves neither code nor bindings behind.
 [[nodiscard]] std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv,
-                                                    std::span<const SpecConstant> constants);
+                                                    std::span<const SpecConstant> constants,
+                                                    FloatRounding rounding = FloatRounding::Free);
 
 /// Decorates every floating-point instruction with NoContraction, as if all of the source were `precise`. Mesa's
 /// compiler otherwise regroups sums and products depending on which of them other code uses too, so that the same
