@@ -33,11 +33,6 @@ enum class FloatRounding : uint32_t {
                                                     std::span<const SpecConstant> constants,
                                                     FloatRounding rounding = FloatRounding::Free);
 
-/// Decorates every floating-point instruction with NoContraction, as if all of the source were `precise`. Mesa's
-/// compiler otherwise regroups sums and products depending on which of them other code uses too, so that the same
-/// function rounds differently in kernels of different features.
-void keepRounding(std::vector<uint32_t>& spirv);
-
 /// One compute pipeline with its layout. Move-only, named for debuggers.
 class Kernel {
 public:
