@@ -81,6 +81,17 @@ TEST(RenderMaterials, MetalAndPlasticSpheresMatchTheReference) {
   }
 }
 
+TEST(RenderMaterials, NormalsThatLeanAwayFromTheViewerMatchTheReference) {
+  // On 4 rings interpolated normals stray far from the facets': at the rim many point away from the camera.
+  Scene scene;
+  scene.environment = constantEnvironment({1, 0.8f, 0.6f});
+  addPrimitive(scene, sphere(1, 4, true, false, addMaterial(scene, metal({0.9f, 0.8f, 0.7f}, 0.5f))));
+  const Camera camera = orthographicLookAt({3, 2, 10}, {}, 1, 1);
+  const auto reference = oracle::renderReference(scene, camera, 24, 24, 1024, {.seed = 21});
+  EXPECT_TRUE(sameImage(measured(renderImage(scene, camera, 24, 24, 512)), measured(reference),
+                        {.absoluteTolerance = 1e-3, .powerFloor = 0.005}));
+}
+
 TEST(RenderMaterials, MirrorsShowTheEmittersTheyFace) {
   // Reflectance 0.9, 0.5, 0.2 at every angle: baseColor is f0, and at normal incidence Schlick adds nothing.
   Scene scene;
