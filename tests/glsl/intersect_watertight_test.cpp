@@ -94,7 +94,7 @@ TEST(Watertight, NoRayLeavesATurnedAndMirroredSphere) {
 }
 
 TEST(Watertight, NoRayLeavesASphereOfAnySize) {
-  for (const float radius : {1e-12f, 1e-6f, 1e6f, 1e12f}) {
+  for (const float radius : {1e-22f, 1e-12f, 1e6f, 1e12f}) {
     const Scene scene = test::sceneOf({test::sphereMesh({0, 0, 0}, radius, 25)});
     const Misses misses = countMisses(scene, {0, 0, 0}, 0.3f * radius, 40000, 6);
     EXPECT_EQ(misses.closest, 0u) << radius;

@@ -29,9 +29,11 @@ struct LeaveCase {
 };
 
 struct LeaveResult {
+  vec3 pObject;
+  vec3 pErrorObject;
   vec3 p; // world
   vec3 pError;
-  vec3 origin; // world, on the side of `direction`
+  vec3 originObject; // of the ray that leaves on the side of `direction`
   uint found;  // the triangle is met again
 };
 

@@ -54,20 +54,18 @@ TEST(GltfMaterials, DefaultsAreThoseOfTheSpecification) {
 }
 
 TEST(GltfMaterials, FactorsAreRead) {
-  const Scene scene = loadMaterial({{"name", "brass"},
-                                    {"alphaCutoff", 0.25},
-                                    {"alphaMode", "MASK"},
-                                    {"doubleSided", true},
-                                    {"emissiveFactor", {0.5, 0.25, 0}},
-                                    {"pbrMetallicRoughness",
-                                     {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
-                                      {"metallicFactor", 0.6},
-                                      {"roughnessFactor", 0.7}}},
-                                    {"extensions",
-                                     {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
-                                      {"KHR_materials_ior", {{"ior", 1.33}}},
-                                      {"KHR_materials_specular",
-                                       {{"specularFactor", 0.9}, {"specularColorFactor", {1, 2, 0.5}}}}}}});
+  const Scene scene =
+      loadMaterial({{"name", "brass"},
+                    {"alphaCutoff", 0.25},
+                    {"alphaMode", "MASK"},
+                    {"doubleSided", true},
+                    {"emissiveFactor", {0.5, 0.25, 0}},
+                    {"pbrMetallicRoughness",
+                     {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.6}, {"roughnessFactor", 0.7}}},
+                    {"extensions",
+                     {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
+                      {"KHR_materials_ior", {{"ior", 1.33}}},
+                      {"KHR_materials_specular", {{"specularFactor", 0.9}, {"specularColorFactor", {1, 2, 0.5}}}}}}});
   const Material& m = scene.materials.at(0);
   EXPECT_EQ(m.name, "brass");
   EXPECT_EQ(m.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
@@ -84,15 +82,13 @@ TEST(GltfMaterials, FactorsAreRead) {
 }
 
 TEST(GltfMaterials, EveryTextureGoesToItsPlace) {
-  const Scene scene = load(assetWithTextures({{"emissiveTexture", {{"index", 3}}},
-                                              {"normalTexture", {{"index", 2}, {"scale", 0.5}}},
-                                              {"pbrMetallicRoughness",
-                                               {{"baseColorTexture", {{"index", 0}}},
-                                                {"metallicRoughnessTexture", {{"index", 1}}}}},
-                                              {"extensions",
-                                               {{"KHR_materials_specular",
-                                                 {{"specularTexture", {{"index", 4}}},
-                                                  {"specularColorTexture", {{"index", 5}}}}}}}}));
+  const Scene scene = load(assetWithTextures(
+      {{"emissiveTexture", {{"index", 3}}},
+       {"normalTexture", {{"index", 2}, {"scale", 0.5}}},
+       {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
+       {"extensions",
+        {{"KHR_materials_specular",
+          {{"specularTexture", {{"index", 4}}}, {"specularColorTexture", {{"index", 5}}}}}}}}));
   const Material& m = scene.materials.at(0);
   EXPECT_EQ(redOf(scene, m.baseColorTexture), 0);
   EXPECT_EQ(redOf(scene, m.metallicRoughnessTexture), 1);
@@ -105,13 +101,12 @@ TEST(GltfMaterials, EveryTextureGoesToItsPlace) {
 }
 
 TEST(GltfMaterials, UnlitKeepsBaseColorOnly) {
-  const Scene scene = load(assetWithTextures({{"alphaMode", "BLEND"},
-                                              {"emissiveFactor", {1, 1, 1}},
-                                              {"emissiveTexture", {{"index", 3}}},
-                                              {"pbrMetallicRoughness",
-                                               {{"baseColorFactor", {0.5, 0.5, 0.5, 0.5}},
-                                                {"baseColorTexture", {{"index", 4}}}}},
-                                              {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
+  const Scene scene = load(assetWithTextures(
+      {{"alphaMode", "BLEND"},
+       {"emissiveFactor", {1, 1, 1}},
+       {"emissiveTexture", {{"index", 3}}},
+       {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 0.5}}, {"baseColorTexture", {{"index", 4}}}}},
+       {"extensions", {{"KHR_materials_unlit", Json::object()}}}}));
   const Material& m = scene.materials.at(0);
   EXPECT_TRUE(m.unlit);
   EXPECT_EQ(m.alphaMode, AlphaMode::Blend);
@@ -130,15 +125,15 @@ TEST(GltfMaterials, AnIorOfZeroMeansAReflectanceOfOne) {
 }
 
 TEST(GltfMaterials, OutOfRangeValuesAreClampedWithOneWarningEach) {
-  const Scene scene = loadMaterial(
-      {{"alphaCutoff", -1},
-       {"emissiveFactor", {2, -1, 0.5}},
-       {"pbrMetallicRoughness",
-        {{"baseColorFactor", {1.5, -0.5, 0.5, 2}}, {"metallicFactor", -1}, {"roughnessFactor", 3}}},
-       {"extensions",
-        {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1e30}}},
-         {"KHR_materials_ior", {{"ior", 0.5}}},
-         {"KHR_materials_specular", {{"specularFactor", 4}, {"specularColorFactor", {-1, 3, 0}}}}}}});
+  const Scene scene =
+      loadMaterial({{"alphaCutoff", -1},
+                    {"emissiveFactor", {2, -1, 0.5}},
+                    {"pbrMetallicRoughness",
+                     {{"baseColorFactor", {1.5, -0.5, 0.5, 2}}, {"metallicFactor", -1}, {"roughnessFactor", 3}}},
+                    {"extensions",
+                     {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1e30}}},
+                      {"KHR_materials_ior", {{"ior", 0.5}}},
+                      {"KHR_materials_specular", {{"specularFactor", 4}, {"specularColorFactor", {-1, 3, 0}}}}}}});
   const Material& m = scene.materials.at(0);
   EXPECT_EQ(m.baseColor, glm::vec4(1, 0, 0.5f, 1));
   EXPECT_EQ(m.metallic, 0);
@@ -154,8 +149,8 @@ TEST(GltfMaterials, OutOfRangeValuesAreClampedWithOneWarningEach) {
 TEST(GltfMaterials, TextureTransformFollowsTheExtensionsExample) {
   // KHR_texture_transform's own example: "utilizes only the lower left quadrant of the source image, rotated".
   const Json transform = {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}};
-  const Scene scene = load(assetWithTextures(
-      {{"emissiveTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}));
+  const Scene scene = load(
+      assetWithTextures({{"emissiveTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}));
   const TextureRef& ref = scene.materials.at(0).emissiveTexture;
   const auto apply = [&](float u, float v) {
     return glm::vec2(glm::dot(ref.uRow, glm::vec3(u, v, 1)), glm::dot(ref.vRow, glm::vec3(u, v, 1)));

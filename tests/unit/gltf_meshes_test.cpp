@@ -106,8 +106,7 @@ TEST(GltfMeshes, BadNormalsBecomeFlatOnesWithOneWarning) {
   GltfAsset asset = triangleAsset();
   asset.attribute("NORMAL") = asset.addFloats({0, 0, 0, kNan, 0, 1, 1, 0, 0}, "VEC3");
   const Scene scene = load(asset);
-  EXPECT_EQ(scene.meshes[0].primitives[0].normals,
-            (std::vector<glm::vec3>{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}}));
+  EXPECT_EQ(scene.meshes[0].primitives[0].normals, (std::vector<glm::vec3>{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}}));
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_EQ(scene.warnings[0],
             "normals that are zero or not finite are recomputed (2 times, first at /meshes/0/primitives/0)");

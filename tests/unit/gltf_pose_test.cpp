@@ -25,9 +25,8 @@ GltfAsset skinnedAsset() {
   GltfAsset asset = triangleAsset();
   asset.attribute("JOINTS_0") = asset.addAccessor<uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, kUInt8, "VEC4");
   asset.attribute("WEIGHTS_0") = asset.addFloats({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0}, "VEC4");
-  asset.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
-                         {{"children", {2}}},
-                         {{"translation", {0, 10, 0}}}};
+  asset.json["nodes"] = {
+      {{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}}, {{"children", {2}}}, {{"translation", {0, 10, 0}}}};
   asset.json["scenes"] = {{{"nodes", {0, 1}}}};
   asset.json["skins"] = {{{"joints", {1, 2}}}};
   return asset;

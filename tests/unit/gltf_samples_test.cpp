@@ -111,13 +111,14 @@ TEST(GltfSamples, EveryGeneratedModelLoads) {
 TEST(GltfSamples, TriangleCountsAreThoseOfTheIndex) {
   const auto shared = sharedFolder();
   if (!shared) GTEST_SKIP() << "the sample models beside the checkout are absent";
-  const std::vector<std::pair<const char*, size_t>> expected = {{"FlightHelmet/FlightHelmet.gltf", 94722},
-                                                                {"MaterialGrid/material_grid.gltf", 305536},
-                                                                {"PrimitiveModeNormalsTest/PrimitiveModeNormalsTest.glb", 2562},
-                                                                {"SheenCloth/SheenCloth.glb", 115200},
-                                                                {"SimpleInstancing/simple-instancing.glb", 125 * 12},
-                                                                {"CornellBox-Bevy/CornellBox.glb", 36},
-                                                                {"Fox/Fox.glb", 576}};
+  const std::vector<std::pair<const char*, size_t>> expected = {
+      {"FlightHelmet/FlightHelmet.gltf", 94722},
+      {"MaterialGrid/material_grid.gltf", 305536},
+      {"PrimitiveModeNormalsTest/PrimitiveModeNormalsTest.glb", 2562},
+      {"SheenCloth/SheenCloth.glb", 115200},
+      {"SimpleInstancing/simple-instancing.glb", 125 * 12},
+      {"CornellBox-Bevy/CornellBox.glb", 36},
+      {"Fox/Fox.glb", 576}};
   for (const auto& [name, count] : expected) {
     EXPECT_EQ(instancedTriangles(loadGltf(*shared / "gltf" / name)), count) << name;
   }

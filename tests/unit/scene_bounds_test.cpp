@@ -33,8 +33,8 @@ double largestImageCoordinate(const Scene& scene, const Camera& camera) {
                             i & 4 ? bounds.upper.z : bounds.lower.z);
     const glm::dvec4 local = glm::inverse(camera.worldFromCamera) * glm::dvec4(corner, 1);
     EXPECT_LT(local.z, 0) << "in front of the camera";
-    largest = std::max({largest, std::abs(local.x) / (-local.z * tanY * *camera.aspectRatio),
-                        std::abs(local.y) / (-local.z * tanY)});
+    largest = std::max(
+        {largest, std::abs(local.x) / (-local.z * tanY * *camera.aspectRatio), std::abs(local.y) / (-local.z * tanY)});
   }
   return largest;
 }
@@ -67,7 +67,8 @@ TEST(WorldBounds, CoverAllInstances) {
 TEST(WorldBounds, OfAnEmptySceneAreEmpty) { EXPECT_TRUE(worldBounds(Scene{}).empty()); }
 
 TEST(FramingCamera, SeesAllOfTheBoundsAndFillsTheFrame) {
-  for (const glm::dvec3 size : {glm::dvec3(1), glm::dvec3(10, 0.1, 0.1), glm::dvec3(0.1, 10, 0.1), glm::dvec3(1e-6), glm::dvec3(1e6)}) {
+  for (const glm::dvec3 size :
+       {glm::dvec3(1), glm::dvec3(10, 0.1, 0.1), glm::dvec3(0.1, 10, 0.1), glm::dvec3(1e-6), glm::dvec3(1e6)}) {
     for (const double aspect : {0.25, 1.0, 16.0 / 9.0, 4.0}) {
       const Scene scene = boxScene({3, -2, 7}, size);
       const Camera camera = framingCamera(scene, aspect);

@@ -49,7 +49,8 @@ TEST(Tangents, PointAlongUAndTheBitangentAgainstV) {
 TEST(Tangents, FollowRotatedAndScaledTextureCoordinates) {
   const float angle = 0.7f;
   Primitive primitive = square([&](glm::vec3 p) {
-    return glm::vec2(5 * (std::cos(angle) * p.x + std::sin(angle) * p.y), std::sin(angle) * p.x - std::cos(angle) * p.y);
+    return glm::vec2(5 * (std::cos(angle) * p.x + std::sin(angle) * p.y),
+                     std::sin(angle) * p.x - std::cos(angle) * p.y);
   });
   generateTangents(primitive, 0);
   for (const glm::vec4 tangent : primitive.tangents) {
@@ -70,7 +71,8 @@ TEST(Tangents, AreUnitAndInThePlaneOfTheNormal) {
 
 TEST(Tangents, AVertexBetweenMirroredTrianglesIsSplit) {
   // u mirrored at the diagonal 0-2: the triangles turn opposite ways in uv.
-  Primitive primitive = square([](glm::vec3 p) { return p == glm::vec3(0, 1, 0) ? glm::vec2(1, 1) : glm::vec2(p.x, 1 - p.y); });
+  Primitive primitive =
+      square([](glm::vec3 p) { return p == glm::vec3(0, 1, 0) ? glm::vec2(1, 1) : glm::vec2(p.x, 1 - p.y); });
   generateTangents(primitive, 0);
   ASSERT_EQ(primitive.positions.size(), 6u);
   ASSERT_EQ(primitive.tangents.size(), 6u);
