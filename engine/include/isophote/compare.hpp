@@ -13,7 +13,7 @@ namespace isophote {
 /// The verdict of a statistical comparison; present where both images carry `stderr.{R,G,B}`.
 struct Verdict {
   bool same = true;
-  double p = 1;               ///< family-wise p-value over all pixel-channels and 4x4 block means
+  double p = 1;               ///< family-wise, over all pixel-channels and blocks of 4x4, 16x16, … pixels
   double passingFraction = 1; ///< share of pixel-channels within the critical z
   uint64_t failingBlocks = 0;
 };
