@@ -33,7 +33,7 @@ Scene furnace() { return boxFurnace(glm::vec3(1), glm::vec3(0.5f)); }
 Scene squareLight() { return squareLightOverFloor(2); }
 Scene halfOpaqueLayers() { return alphaLayers(3, 0.5f); }
 Camera floorCamera() { return lookAt({2, 2, 3}, {0, 0.3, 0}, 0.7); }
-Camera layersCamera() { return lookAt({0.5, 0.5, 6}, {0, 0, 0}, 0.7); }
+Camera layersCamera() { return orthographicLookAt({0, 0, 5}, {0, 0, 0}, 0.4, 0.4); }
 
 const GoldenScene kScenes[] = {
     {"furnace", furnace, boxFurnaceCamera},
