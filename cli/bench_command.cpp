@@ -51,15 +51,21 @@ RenderStatistics difference(RenderStatistics later, const RenderStatistics& earl
   return later;
 }
 
-/// Renders one sample that is not counted (compilation, caches), then whole samples for about `seconds`.
+/// Renders one sample that is not counted (compilation, caches), then passes of more and more samples, which fill a
+/// large device, for about `seconds`.
 RenderStatistics measure(PathTracer& tracer, const Camera& camera, Film& film, double seconds) {
   tracer.render(camera, film, {0, 1});
   const RenderStatistics warm = tracer.statistics();
-  uint32_t sample = 1;
-  do {
-    tracer.render(camera, film, {sample, sample + 1});
-    ++sample;
-  } while (tracer.statistics().renderSeconds - warm.renderSeconds < seconds);
+  uint32_t next = 1;
+  double elapsed = 0;
+  while (elapsed < seconds) {
+    const uint32_t done = next - 1;
+    const double wanted = elapsed > 0 ? done * (seconds - elapsed) / elapsed : 1;
+    const uint32_t pass = std::clamp(static_cast<uint32_t>(wanted), 1u, std::max(1u, done));
+    tracer.render(camera, film, {next, next + pass});
+    next += pass;
+    elapsed = tracer.statistics().renderSeconds - warm.renderSeconds;
+  }
   return difference(tracer.statistics(), warm);
 }
 

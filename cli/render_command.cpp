@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -127,6 +128,7 @@ void describeStart(const RenderReport& report) {
              report.sceneStatistics.instancedTriangles, report.seconds.bvh);
   fmt::print("device: {} ({}), {}\n", report.device.name, report.device.kind, report.device.driver);
   fmt::print("features: {}\n", fmt::join(report.features.names(), ", "));
+  std::fflush(stdout); // a log should say so before the hours of rendering
 }
 
 void describeResult(const RenderOptions& options, const RenderReport& report) {

@@ -41,6 +41,7 @@ private:
 
   bool renderPass(SampleRange pass) {
     const auto onProgress = [&](const Progress& progress) {
+      if (!compileSeconds_) compileSeconds_ = tracer_.statistics().compileSeconds; // done by the first pass
       if (interrupted() || timeUp()) return false;
       if (progress_.due()) showProgress(pass, progress);
       return true;
@@ -77,7 +78,8 @@ private:
   static double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
   }
-  [[nodiscard]] double elapsed() const { return secondsSince(start_); }
+  /// Of rendering: without the compilation of kernels, which the first pass begins with.
+  [[nodiscard]] double elapsed() const { return secondsSince(start_) - compileSeconds_.value_or(0); }
   [[nodiscard]] RenderResult result(Outcome outcome) const {
     return {.outcome = outcome, .seconds = elapsed(), .error = error_};
   }
@@ -91,6 +93,7 @@ private:
   Clock::time_point errorAt_ = start_;
   ErrorEstimate error_;
   double raysBefore_ = 0; ///< of earlier passes
+  std::optional<double> compileSeconds_;
 };
 
 } // namespace

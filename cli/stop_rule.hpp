@@ -13,7 +13,7 @@ namespace isophote::cli {
 struct StopRule {
   SampleRange samples;               ///< at most these
   std::optional<double> targetError; ///< relative RMS error; reached when its 95% interval lies below
-  std::optional<double> seconds;     ///< of rendering
+  std::optional<double> seconds;     ///< of rendering, compilation excluded
 };
 
 enum class Outcome {

@@ -121,8 +121,9 @@ private:
       const Image image = render_->film().resolve();
       if (wantExr_) writeExr(stem_ + ".exr", image);
       if (wantPng_) writePng(stem_ + ".png", image, state_.exposure, state_.toneMap);
-      state_.message = fmt::format("saved {}{}{} at {} samples", stem_, wantExr_ ? ".exr" : "", wantPng_ ? ".png" : "",
-                                   render_->samples());
+      const std::string exr = wantExr_ ? stem_ + ".exr" : "";
+      const std::string png = wantPng_ ? stem_ + ".png" : "";
+      state_.message = fmt::format("saved {}{}{}", exr, wantExr_ && wantPng_ ? " and " : "", png);
     } catch (const OutputError& error) {
       state_.message = error.what();
     }

@@ -3,7 +3,7 @@ import math
 
 from asset_maker.gltf import Gltf
 from asset_maker.png import grey_png
-from asset_maker.shapes import lathe, quad, rounded_box, sphere, tube
+from asset_maker.shapes import lathe, merge, quad, rounded_box, sphere, tube
 
 
 def _turn(degrees, axis=1):
@@ -24,12 +24,18 @@ def _knot(t):
 
 
 def _vase():
-    """Profile from the inside of the lip over the outside down to the foot."""
-    outside = [(0.17 + 0.15 * math.sin(math.pi * (0.1 + 0.95 * s)) ** 2 + 0.05 * math.cos(5.2 * s), 1.25 * (1 - s))
-               for s in (i / 28 for i in range(29))]
-    lip, foot = outside[0], outside[-1]
-    inside = [(lip[0] - 0.035, 0.85), (lip[0] - 0.035, 1.2), (lip[0] - 0.025, 1.25), (lip[0] - 0.01, 1.258)]
-    return lathe([*inside, *outside, foot, (0.0, 0.0)], 40)
+    """Profile from the inside of the neck over the lip and the outside down to the foot."""
+    shape = ((0.0, 0.17), (0.16, 0.09), (0.62, 0.31), (1.0, 0.16))  # (share of the height from the top, radius)
+
+    def radius(s):
+        for (s0, r0), (s1, r1) in zip(shape, shape[1:]):
+            if s <= s1:
+                return r0 + (r1 - r0) * 0.5 * (1 - math.cos(math.pi * (s - s0) / (s1 - s0)))
+        return shape[-1][1]
+
+    outside = [(radius(i / 28), 1.3 * (1 - i / 28)) for i in range(29)]
+    inside = [(0.06, 1.05), (0.075, 1.15), (0.13, 1.28), (0.155, 1.308)]
+    return lathe([*inside, *outside, outside[-1], (0.0, 0.0)], 40)
 
 
 def _bowl():
@@ -43,26 +49,29 @@ def _bowl():
 
 def _room(gltf):
     tiles = gltf.material("tiles", (0.80, 0.74, 0.66), 0.0, 0.22, gltf.texture("tiles", _tiles()))
-    floor = quad((-4.0, 0.0, 5.0), (6.0, 0.0, 5.0), (6.0, 0.0, -2.5), (-4.0, 0.0, -2.5),
-                 [(0.0, 7.5), (10.0, 7.5), (10.0, 0.0), (0.0, 0.0)])
+    floor = quad((-3.0, 0.0, 7.0), (5.0, 0.0, 7.0), (5.0, 0.0, -2.5), (-3.0, 0.0, -2.5),
+                 [(0.0, 9.5), (8.0, 9.5), (8.0, 0.0), (0.0, 0.0)])
     gltf.node(gltf.mesh("floor", gltf.shape(floor), tiles), name="floor")
-    plaster = gltf.lambert("plaster", (0.62, 0.58, 0.54))
-    back = quad((-4.0, 0.0, -2.5), (6.0, 0.0, -2.5), (6.0, 5.0, -2.5), (-4.0, 5.0, -2.5))
-    gltf.node(gltf.mesh("back wall", gltf.shape(back), plaster), name="back wall")
-    blue = gltf.lambert("blue paint", (0.10, 0.20, 0.30))
-    side = quad((-4.0, 0.0, 5.0), (-4.0, 0.0, -2.5), (-4.0, 5.0, -2.5), (-4.0, 5.0, 5.0))
+    plaster = gltf.lambert("plaster", (0.68, 0.64, 0.60))
+    shell = merge([quad((-3.0, 0.0, -2.5), (5.0, 0.0, -2.5), (5.0, 4.5, -2.5), (-3.0, 4.5, -2.5)),  # back
+                   quad((5.0, 0.0, -2.5), (5.0, 0.0, 7.0), (5.0, 4.5, 7.0), (5.0, 4.5, -2.5)),      # right
+                   quad((5.0, 0.0, 7.0), (-3.0, 0.0, 7.0), (-3.0, 4.5, 7.0), (5.0, 4.5, 7.0)),      # behind the camera
+                   quad((-3.0, 4.5, -2.5), (5.0, 4.5, -2.5), (5.0, 4.5, 7.0), (-3.0, 4.5, 7.0))])   # ceiling
+    gltf.node(gltf.mesh("room", gltf.shape(shell), plaster), name="room")
+    blue = gltf.lambert("blue paint", (0.10, 0.22, 0.34))
+    side = quad((-3.0, 0.0, 7.0), (-3.0, 0.0, -2.5), (-3.0, 4.5, -2.5), (-3.0, 4.5, 7.0))
     gltf.node(gltf.mesh("side wall", gltf.shape(side), blue), name="side wall")
 
 
 def _lights(gltf):
-    window = gltf.shape(quad((-3.99, 1.0, 2.2), (-3.99, 1.0, 0.0), (-3.99, 3.6, 0.0), (-3.99, 3.6, 2.2)))
-    gltf.node(gltf.mesh("window", window, gltf.emitter("daylight", (9.0, 11.0, 14.0))), name="window")
-    panel = gltf.shape(quad((1.2, 4.2, -0.6), (3.4, 4.2, -0.6), (3.4, 4.2, 1.6), (1.2, 4.2, 1.6)))
-    gltf.node(gltf.mesh("ceiling panel", panel, gltf.emitter("warm panel", (11.0, 8.4, 5.6))), name="ceiling panel")
-    strip = gltf.shape(quad((-0.04, 0.0, 0.0), (0.04, 0.0, 0.0), (0.04, 2.4, 0.0), (-0.04, 2.4, 0.0)))
-    tube_mesh = gltf.mesh("strip", strip, gltf.emitter("strip", (6.0, 2.6, 1.1)))
+    window = gltf.shape(quad((-2.99, 1.0, 2.8), (-2.99, 1.0, 0.2), (-2.99, 3.4, 0.2), (-2.99, 3.4, 2.8)))
+    gltf.node(gltf.mesh("window", window, gltf.emitter("daylight", (6.0, 7.4, 9.5))), name="window")
+    panel = gltf.shape(quad((1.4, 4.4, -0.8), (3.6, 4.4, -0.8), (3.6, 4.4, 1.4), (1.4, 4.4, 1.4)))
+    gltf.node(gltf.mesh("ceiling panel", panel, gltf.emitter("warm panel", (8.0, 6.0, 3.9))), name="ceiling panel")
+    strip = gltf.mesh("strip", gltf.shape(quad((-0.035, 0.0, 0.0), (0.035, 0.0, 0.0), (0.035, 1.1, 0.0), (-0.035, 1.1, 0.0))),
+                      gltf.emitter("strip", (5.0, 2.0, 0.8)))
     for i in range(3):
-        gltf.node(tube_mesh, (2.0 + 0.45 * i, 0.5 + 0.25 * i, -2.49), name=f"strip {i}")
+        gltf.node(strip, (-1.75 + 0.32 * i, 0.75 + 0.2 * i, -2.49), name=f"strip {i}")
 
 
 def _objects(gltf):
@@ -74,7 +83,7 @@ def _objects(gltf):
     gltf.node(knot, (0.0, 1.02, -0.4), 1.0, _turn(68.0, axis=0), "knot")
 
     ball = gltf.shape(sphere(0.5, 32, 48))
-    gltf.node(gltf.mesh("steel ball", ball, gltf.material("steel", (0.82, 0.83, 0.85), 1.0, 0.08)), (-1.15, 0.5, 0.35), 1.0,
+    gltf.node(gltf.mesh("steel ball", ball, gltf.material("steel", (0.82, 0.83, 0.85), 1.0, 0.08)), (-0.92, 0.42, 0.6), 0.84,
               name="steel ball")
     glaze = gltf.material("glaze", (0.02, 0.20, 0.22), 0.0, 0.12)
     gltf.node(gltf.mesh("vase", gltf.shape(_vase()), glaze), (1.35, 0.0, -0.75), 1.1, name="vase")
@@ -84,10 +93,10 @@ def _objects(gltf):
     for x, y, z in ((1.12, 0.27, 0.92), (1.36, 0.28, 0.94), (1.27, 0.27, 0.72), (1.25, 0.44, 0.86)):
         gltf.node(orange, (x, y, z), 0.25, name="orange")
     red = gltf.mesh("red cube", block, gltf.material("red lacquer", (0.50, 0.03, 0.03), 0.0, 0.18))
-    teal = gltf.mesh("chalk cube", block, gltf.lambert("ochre", (0.65, 0.42, 0.12)))
-    gltf.node(red, (-1.55, 0.275, -1.15), 0.55, _turn(24.0), "red cube")
-    gltf.node(teal, (-1.50, 0.725, -1.12), 0.35, _turn(50.0), "ochre cube")
-    gltf.node(teal, (-2.30, 0.175, -0.70), 0.35, _turn(-12.0), "ochre cube")
+    cube = gltf.mesh("chalk cube", block, gltf.lambert("ochre", (0.65, 0.42, 0.12)))
+    gltf.node(red, (-2.25, 0.275, -1.35), 0.55, _turn(24.0), "red cube")
+    gltf.node(cube, (-2.22, 0.725, -1.32), 0.35, _turn(50.0), "ochre cube")
+    gltf.node(cube, (-1.75, 0.14, 0.75), 0.28, _turn(-22.0), "ochre cube")
     bead = gltf.mesh("bead", ball, gltf.material("pearl", (0.86, 0.84, 0.80), 0.0, 0.25))
     for i in range(9):
         angle = math.radians(200.0 + 15.0 * i)

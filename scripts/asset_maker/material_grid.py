@@ -29,5 +29,5 @@ def scene():
     side = gltf.shape(quad((-6.0, 0.5, -4.0), (-6.0, 0.5, 2.0), (-6.0, 3.5, 2.0), (-6.0, 3.5, -4.0)))
     gltf.node(gltf.mesh("fill light", side, fill))
     gltf.point_light("lamp", (4.0, 4.0, 4.0), 10.0)
-    gltf.camera("camera", (0.0, 3.6, 8.0), (0.0, 0.25, -1.0), math.radians(28.0), 2.0)
+    gltf.camera("camera", (0.0, 3.6, 8.0), (0.0, 0.25, -1.0), math.radians(21.0), 2.0)
     return gltf

@@ -235,6 +235,18 @@ TEST(EnvironmentLight, OneBrightTexelLightsAPlaneAsQuadratureSays) {
   }
 }
 
+// Continuous and monotonic: well distributed numbers stay well distributed over the map.
+TEST(EnvironmentLight, SamplesDescendFromPoleToPoleAsTheirNumberGrows) {
+  for (const auto& map : {noiseMap(16, 8, 0), noiseMap(4, 5, 0), noiseMap(1, 1, 0)}) {
+    std::vector<LightEnvironmentCase> cases;
+    for (uint32_t k = 0; k < 4096; ++k) cases.push_back({{0, 1, 0}, {0.3f, lattice(k << 12)}});
+    const auto results = run(map, cases);
+    for (size_t i = 1; i < results.size(); ++i) {
+      ASSERT_LE(results[i].direction.y, results[i - 1].direction.y + 1e-6f) << map.height << " " << i;
+    }
+  }
+}
+
 TEST(EnvironmentLight, ExtremeNumbersGiveUnitDirectionsWithPositiveDensity) {
   const uint32_t last = (1u << 24) - 1;
   const uint32_t values[] = {0, 1, last / 2, last / 2 + 1, last - 1, last};

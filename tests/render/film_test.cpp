@@ -84,27 +84,31 @@ TEST(RenderFilm, GeometryOutsideTheClippingRangeIsNotSeenByTheCamera) {
   EXPECT_EQ(seen(1.1, 1.9), glm::vec2(0, 0));
 }
 
-TEST(RenderFilm, StandardErrorsTellTheSpreadBetweenSeeds) {
-  // 64 seeds. z = (mean - converged) / stderr of a pixel has 7 degrees of freedom: variance 7/5, and about 5.0% of the
-  // values lie beyond the 97.5% quantile 2.365. 16 nearly independent pixel-channels of 64 seeds: the share is known to
-  // 0.7%, so misjudging the error by a fifth (share 10% or 1.9%) is seen.
-  const Scene scene = cornellBox();
-  constexpr uint32_t kSize = 4;
-  const auto reference = measured(oracle::renderReference(scene, cornellCamera(), kSize, kSize, 60000, {.seed = 4}));
+/// Over pixels of one expectation, z = (mean - expected) / stderr follows Student's law with 7 degrees of freedom where
+/// replicates are independent and nearly normal. 4096 pixels: the share of |z| beyond the 97.5% quantile is 5% with a
+/// standard deviation of 0.34%. The bounds of 4 such deviations see errors misjudged by 9% (share 3.6% or 6.7%).
+TEST(RenderFilm, StandardErrorsTellTheSpreadOfPixelMeans) {
+  constexpr double kQuantile = 2.36462, kTolerance = 0.0136;
+  struct Case {
+    Scene scene;
+    Camera camera;
+    double expected;
+  };
+  const std::vector<Case> cases{{squareLightOverFloor(1), sensorAt({0.5, 0, 0.5}), 0.1385323412},
+                                {boxFurnace(glm::vec3(1), glm::vec3(0.5f)), boxFurnaceCamera(), 2}};
   for (const auto sampler : {SamplerKind::Independent, SamplerKind::Sobol}) {
-    uint32_t outside = 0, tests = 0;
-    for (uint64_t seed = 0; seed < 64; ++seed) {
-      const Image image = renderImage(scene, cornellCamera(), kSize, kSize, 128,
-                                      {.estimator = {.sampler = sampler, .filter = PixelFilter::Box, .seed = seed}});
-      const MeasuredImage result = measured(image);
-      for (size_t i = 0; i < result.pixels.size(); ++i) {
-        const Estimate &estimate = result.pixels[i][1], &truth = reference.pixels[i][1];
-        const double z = (estimate.mean - truth.mean) / std::sqrt(estimate.variance + truth.variance);
-        outside += std::abs(z) > 2.36462 ? 1 : 0;
-        ++tests;
+    for (const Case& c : cases) {
+      const Image image = renderImage(c.scene, c.camera, 64, 64, 512,
+                                      {.estimator = {.sampler = sampler, .filter = PixelFilter::Box, .seed = 77}});
+      const auto means = plane(image, "G"), errors = plane(image, "stderr.G"), half = plane(image, "ci95.G");
+      double outside = 0;
+      for (size_t i = 0; i < means.size(); ++i) {
+        const double difference = std::abs(means[i] - c.expected);
+        outside += difference > kQuantile * errors[i] ? 1.0 / 4096 : 0;
+        ASSERT_NEAR(half[i], kQuantile * errors[i], 1e-4 * half[i]);
       }
+      EXPECT_NEAR(outside, 0.05, kTolerance);
     }
-    EXPECT_NEAR(double(outside) / tests, 0.05, 0.03);
   }
 }
 

@@ -42,8 +42,10 @@ TEST_P(FurnaceCases, Test16EmissiveBoxGivesTwoAndFive) {
                               .lightSampling = lightSampling,
                               .misHeuristic = heuristic,
                               .seed = 16};
-  EXPECT_TRUE(pixelMeanIs(renderFurnace(0.5f, 2048, estimator), "G", 2, 0.006));
-  EXPECT_TRUE(pixelMeanIs(renderFurnace(0.8f, 2048, estimator), "G", 1 / (1 - double(0.8f)), 0.012));
+  // Light sampling alone has no finite variance in a corner, where the lit wall comes arbitrarily near.
+  const double power = lightSampling == LightSampling::LightsOnly ? 0.1 : 0.006;
+  EXPECT_TRUE(pixelMeanIs(renderFurnace(0.5f, 2048, estimator), "G", 2, power));
+  EXPECT_TRUE(pixelMeanIs(renderFurnace(0.8f, 2048, estimator), "G", 1 / (1 - double(0.8f)), 2 * power));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -81,9 +83,9 @@ TEST(RenderFurnace, Test17LosslessBoxGivesDepthPlusOneWithoutVariance) {
 
 TEST(RenderFurnace, Test18RouletteKeepsTheSeriesOfADarkeningByOnePercent) {
   // rho = 0.99: a hundred bounces on average, most of the light behind roulette. BSDF sampling: one path's relative
-  // deviation is about 1.
+  // deviation is about 1. Roulette that survives less often than rho squared would have no finite variance here.
   const EstimatorSettings estimator{.filter = PixelFilter::Box, .lightSampling = LightSampling::BsdfOnly, .seed = 18};
-  EXPECT_TRUE(pixelMeanIs(renderFurnace(0.99f, 512, estimator), "B", 1 / (1 - double(0.99f)), 0.03));
+  EXPECT_TRUE(pixelMeanIs(renderFurnace(0.99f, 512, estimator), "B", 1 / (1 - double(0.99f)), 0.02));
 }
 
 TEST(RenderFurnace, RouletteDoesNotChangeADepthLimitedSeries) {

@@ -28,7 +28,7 @@ Scene squareLightOverFloor(float Le) {
 }
 
 Camera sensorAt(glm::dvec3 point) {
-  Camera camera = orthographicLookAt(point + glm::dvec3(0, 0.5, 0), point, 1e-5, 1e-5);
+  Camera camera = orthographicLookAt(point + glm::dvec3(0, 0.5, 0), point, 1e-6, 1e-6);
   return camera;
 }
 

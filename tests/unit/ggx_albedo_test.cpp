@@ -68,17 +68,17 @@ TEST(GgxAlbedo, TableHoldsKnownAlbedos) {
 
 TEST(GgxAlbedo, InterpolationMatchesQuadrature) {
   const WorstError ordinary = worstError(150, 0.05, 1, 0.05, 1);
-  EXPECT_LT(ordinary.a, 1e-3);
-  EXPECT_LT(ordinary.b, 5e-4);
+  EXPECT_LT(ordinary.a, 1.2e-3);
+  EXPECT_LT(ordinary.b, 6e-4);
   const WorstError grazing = worstError(150, 0, 0.05, 0.05, 1);
-  EXPECT_LT(grazing.a, 1e-3);
+  EXPECT_LT(grazing.a, 6e-4);
   EXPECT_LT(grazing.b, 1e-3);
   const WorstError smooth = worstError(150, 0.05, 1, 1e-3, 0.05);
-  EXPECT_LT(smooth.a, 1e-3);
-  EXPECT_LT(smooth.b, 1.5e-3);
+  EXPECT_LT(smooth.a, 1.2e-3);
+  EXPECT_LT(smooth.b, 1.8e-3);
   // Where mu and alpha are alike and small, both functions bend within one cell.
   const WorstError both = worstError(150, 0, 0.05, 1e-3, 0.05);
-  EXPECT_LT(both.a, 0.01);
+  EXPECT_LT(both.a, 2.8e-3);
   EXPECT_LT(both.b, 0.01);
   for (const auto& [name, worst] :
        {std::pair("ordinary", ordinary), {"grazing", grazing}, {"smooth", smooth}, {"both", both}}) {

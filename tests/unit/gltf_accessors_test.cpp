@@ -80,8 +80,7 @@ TEST(GltfAccessors, QuantizedPositionsOfEveryTypeAreConverted) {
 
 TEST(GltfAccessors, TheMostNegativeNormalizedIntegerIsMinusOne) {
   GltfAsset asset = triangleAsset();
-  asset.attribute("POSITION") =
-      asset.addAccessor<int16_t>({0, 0, 0, -32768, 0, 0, 0, 32767, 0}, kInt16, "VEC3", true);
+  asset.attribute("POSITION") = asset.addAccessor<int16_t>({0, 0, 0, -32768, 0, 0, 0, 32767, 0}, kInt16, "VEC3", true);
   const Scene scene = load(asset);
   EXPECT_EQ(onlyPrimitive(scene).positions[1], glm::vec3(-1, 0, 0));
   EXPECT_EQ(onlyPrimitive(scene).positions[2], glm::vec3(0, 1, 0));
@@ -111,22 +110,21 @@ TEST(GltfAccessors, WithoutBufferViewTheRestOfASparseAccessorIsZero) {
       {"indices", {{"bufferView", asset.addView(indices)}, {"componentType", kUInt8}}},
       {"values", {{"bufferView", asset.addView({reinterpret_cast<const char*>(values), sizeof(values)})}}}};
   const Scene scene = load(asset);
-  EXPECT_EQ(onlyPrimitive(scene).positions,
-            (std::vector<glm::vec3>{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}));
+  EXPECT_EQ(onlyPrimitive(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}));
 }
 
 TEST(GltfAccessors, IndicesMayBeSparseWithoutBufferView) {
   GltfAsset asset = triangleAsset();
   const std::string places{"\x01\x02", 2};
   const std::string values{"\x02\0\x01\0", 4};
-  asset.primitive()["indices"] = asset.add(
-      "accessors", {{"componentType", kUInt16},
-                    {"count", 3},
-                    {"type", "SCALAR"},
-                    {"sparse",
-                     {{"count", 2},
-                      {"indices", {{"bufferView", asset.addView(places)}, {"componentType", kUInt8}}},
-                      {"values", {{"bufferView", asset.addView(values)}}}}}});
+  asset.primitive()["indices"] =
+      asset.add("accessors", {{"componentType", kUInt16},
+                              {"count", 3},
+                              {"type", "SCALAR"},
+                              {"sparse",
+                               {{"count", 2},
+                                {"indices", {{"bufferView", asset.addView(places)}, {"componentType", kUInt8}}},
+                                {"values", {{"bufferView", asset.addView(values)}}}}}});
   EXPECT_EQ(onlyPrimitive(load(asset)).indices, (std::vector<uint32_t>{0, 2, 1}));
 }
 

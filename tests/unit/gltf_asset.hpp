@@ -83,7 +83,8 @@ struct GltfAsset {
 
   /// Appends values as a tightly packed accessor. Returns its index.
   template <class T>
-  size_t addAccessor(const std::vector<T>& values, int componentType, const std::string& type, bool normalized = false) {
+  size_t addAccessor(const std::vector<T>& values, int componentType, const std::string& type,
+                     bool normalized = false) {
     std::string bytes(values.size() * sizeof(T), '\0');
     std::memcpy(bytes.data(), values.data(), bytes.size());
     const size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<size_t>(type[3] - '0');

@@ -11,9 +11,9 @@ struct PngContent {
   uint32_t width = 1;
   uint32_t height = 1;
   int bitDepth = 8;
-  int colorType = 6;      ///< 0 gray, 2 RGB, 3 palette, 4 gray and alpha, 6 RGBA
-  std::string rows;       ///< samples of all rows, most significant byte first, without filter bytes
-  std::string palette;    ///< RGB triples, for color type 3
+  int colorType = 6;   ///< 0 gray, 2 RGB, 3 palette, 4 gray and alpha, 6 RGBA
+  std::string rows;    ///< samples of all rows, most significant byte first, without filter bytes
+  std::string palette; ///< RGB triples, for color type 3
 };
 
 inline std::string bigEndian32(uint32_t value) {

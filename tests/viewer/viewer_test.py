@@ -51,6 +51,24 @@ def mean(rows, x0, x1, y0, y1):
     return [sum(p[c] for p in pixels) / len(pixels) for c in range(3)]
 
 
+def count(rows, wanted):
+    """The share of pixels that are `wanted`, and a little, to divide by."""
+    pixels = [pixel for row in rows for pixel in row]
+    return (1 + sum(1 for pixel in pixels if wanted(*pixel))) / len(pixels)
+
+
+def red(rows):
+    return count(rows, lambda r, g, b: r > 60 and r > 3 * g)
+
+
+def green(rows):
+    return count(rows, lambda r, g, b: g > 40 and g > 1.8 * r)
+
+
+def bright(rows):
+    return count(rows, lambda r, g, b: min(r, g, b) > 200)
+
+
 class Display:
     """A virtual X display of its own."""
 
@@ -74,7 +92,7 @@ class Display:
         subprocess.run(["xdotool", *(str(a) for a in arguments)], env=self.environment(), check=True,
                        stdout=subprocess.DEVNULL)
 
-    def window(self, timeout=60):
+    def window(self, timeout=120):
         """The viewer's window, once it is there."""
         until = time.monotonic() + timeout
         while time.monotonic() < until:
@@ -93,18 +111,18 @@ class Headless(unittest.TestCase):
             environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
             done = subprocess.run([VIEWER, SCENE, "--width", "96", "--height", "96", "--headless-frames", "20", "--screenshot",
                                    picture, "--validation", "--device", "cpu"], env=environment, capture_output=True, text=True,
-                                  timeout=120, check=False)
+                                  timeout=240, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             width, height, rows = read_png(picture)
             self.assertEqual((width, height), (96, 96))
             left, right = mean(rows, 0.02, 0.12, 0.3, 0.7), mean(rows, 0.88, 0.98, 0.3, 0.7)
             self.assertGreater(left[0], 1.5 * left[1])   # the red wall
             self.assertGreater(right[1], 1.3 * right[0])  # the green wall
-            self.assertGreater(min(mean(rows, 0.46, 0.54, 0.10, 0.12)), 200)  # the light
+            self.assertGreater(min(mean(rows, 0.46, 0.54, 0.13, 0.15)), 200)  # the light
 
     def test_refuses_what_it_cannot_do_with_the_right_exit_code(self):
         def code(*arguments):
-            return subprocess.run([VIEWER, *arguments], capture_output=True, timeout=60, check=False).returncode
+            return subprocess.run([VIEWER, *arguments], capture_output=True, timeout=120, check=False).returncode
         self.assertEqual(code(), 2)
         self.assertEqual(code(SCENE, "--scale", "0"), 2)
         self.assertEqual(code("missing.glb"), 3)
@@ -125,7 +143,7 @@ class InAWindow(unittest.TestCase):
                                 stderr=subprocess.PIPE, text=True)
 
     def finish(self, process):
-        output, errors = process.communicate(timeout=120)
+        output, errors = process.communicate(timeout=240)
         self.assertEqual((process.returncode, errors), (0, ""), output)
 
     def test_a_fixed_number_of_frames_shows_the_box_and_the_panel(self):
@@ -146,35 +164,51 @@ class InAWindow(unittest.TestCase):
             try:
                 window = display.window()
                 display.pointer("mousemove", "--window", window, 300, 300)
-                time.sleep(0.5)
+                before = self.save(display, folder, viewer)
+                self.assertEqual((len(before[0]), len(before)), (200, 200))  # half of the window, on a CPU
+
+                # Drag left: the camera goes to the right, sees more of the red wall on the left and less of the green one.
                 display.pointer("mousedown", 1)
-                for x in range(300, 200, -10):
+                for x in range(295, 255, -5):
                     display.pointer("mousemove", "--window", window, x, 300)
                 display.pointer("mouseup", 1)
-                display.pointer("click", "--repeat", 3, 4)
-                display.pointer("mousedown", 2, "mousemove_relative", "--", -20, 10, "mouseup", 2)
+                turned = self.save(display, folder, viewer)
+                self.assertGreater(red(turned) * green(before), 1.5 * red(before) * green(turned))
+
+                display.pointer("click", "--repeat", 3, 4)  # three wheel steps are a factor of 1.35
+                closer = self.save(display, folder, viewer)
+                self.assertGreater(bright(closer), 1.4 * bright(turned))
+
                 display.pointer("windowsize", "--sync", window, 320, 240)
-                time.sleep(0.5)
-                display.pointer("key", "--window", window, "h")
-                display.pointer("key", "--window", window, "s")
-                until = time.monotonic() + 60
-                exr, png = pathlib.Path(folder, "saved.exr"), pathlib.Path(folder, "saved.png")
-                while not (exr.exists() and png.exists()) and time.monotonic() < until and viewer.poll() is None:
-                    time.sleep(0.1)
-                display.pointer("key", "--window", window, "Escape")
+                display.pointer("mousemove", "--window", window, 200, 200)
+                display.pointer("key", "h")
+                resized = self.save(display, folder, viewer)
+                self.assertEqual((len(resized[0]), len(resized)), (160, 120))
+                display.pointer("key", "Escape")
                 self.finish(viewer)
             finally:
                 viewer.kill()
-            width, height, rows = read_png(png)
-            self.assertEqual((width, height), (160, 120))  # half of the window, on a CPU
-            self.assertEqual(exr.read_bytes()[:4], b"\x76\x2f\x31\x01")
-            # The orbit moved the camera to the right: the green wall is no longer where it was.
-            _, _, shown = read_png(pathlib.Path(folder, "end.png"))
-            self.assertEqual((len(shown[0]), len(shown)), (320, 240))
-            right = mean(rows, 0.90, 0.98, 0.5, 0.8)
-            self.assertLess(right[1], 1.2 * right[0])
+            width, height, rows = read_png(pathlib.Path(folder, "end.png"))
+            self.assertEqual((width, height), (320, 240))
+            panel = mean(rows, 0.05, 0.2, 0.06, 0.08)
+            self.assertLess(panel[2], panel[0] + 30)  # hidden
+
+    def save(self, display, folder, viewer):
+        """Presses S and waits for both files; the rows of the PNG."""
+        exr, png = pathlib.Path(folder, "saved.exr"), pathlib.Path(folder, "saved.png")
+        for file in (exr, png):
+            file.unlink(missing_ok=True)
+        time.sleep(0.5)  # for events on their way
+        display.pointer("key", "s")
+        until = time.monotonic() + 120
+        while not (exr.exists() and png.exists()):
+            self.assertIsNone(viewer.poll(), "the viewer ended early")
+            self.assertLess(time.monotonic(), until, "nothing saved within two minutes")
+            time.sleep(0.1)
+        self.assertEqual(exr.read_bytes()[:4], b"\x76\x2f\x31\x01")
+        return read_png(png)[2]
 
 
 if __name__ == "__main__":
-    VIEWER = sys.argv.pop(1)
+    VIEWER = pathlib.Path(sys.argv.pop(1)).resolve()
     unittest.main()

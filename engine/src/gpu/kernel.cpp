@@ -84,7 +84,9 @@ Kernel::Kernel(const Device& device, const KernelSource& source, std::span<const
 void Kernel::build(const KernelSource& source, std::span<const SpecConstant> constants,
                    VkDescriptorSetLayout textureLayout) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<uint32_t> spirv = specializeSpirv(source.spirv, constants);
+  // A CPU driver has no fused operations to lose.
+  const FloatRounding rounding = device_->info.kind == "cpu" ? FloatRounding::AsWritten : FloatRounding::Free;
+  const std::vector<uint32_t> spirv = specializeSpirv(source.spirv, constants, rounding);
   spirvBytes_ = static_cast<uint32_t>(spirv.size() * sizeof(uint32_t));
   usesTextures_ = hasDescriptors(spirv);
   const uint32_t groupLimit =

@@ -1,4 +1,4 @@
-// A compute kernel: embedded SPIR-V, specialised, with push constants and at most the texture array as descriptors.
+// A compute kernel: embedded SPIR-V, specialized, with push constants and at most the texture array as descriptors.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,23 @@ struct SpecConstant {
   uint32_t value = 0; ///< bool as 0/1, int, uint, or the bits of a float
 };
 
+enum class FloatRounding : uint32_t {
+  Free,     ///< the driver may contract and re-associate, as GPUs need for speed
+  AsWritten ///< every operation rounds by itself: differently specialized kernels give the same bits
+};
+
 /// Freezes `constants` into the module and removes what they make unreachable (spirv-opt: freeze, fold, dead branch and
 /// dead code elimination), so that a feature a scene lacks leaves neither code nor bindings behind.
 [[nodiscard]] std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv,
-                                                    std::span<const SpecConstant> constants);
+                                                    std::span<const SpecConstant> constants,
+                                                    FloatRounding rounding = FloatRounding::Free);
 
 /// One compute pipeline with its layout. Move-only, named for debuggers.
 class Kernel {
 public:
   Kernel() = default;
-  /// Specialises `source` by `constants` (constant 0 is the workgroup size) and builds the pipeline.
-  /// @param textureLayout  set 0, or null where the specialised module reads no texture
+  /// Specializes `source` by `constants` (constant 0 is the workgroup size) and builds the pipeline.
+  /// @param textureLayout  set 0, or null where the specialized module reads no texture
   /// @param pushBytes      size of the push-constant block, <= 128
   Kernel(const Device& device, const KernelSource& source, std::span<const SpecConstant> constants,
          VkDescriptorSetLayout textureLayout, uint32_t pushBytes);
@@ -46,7 +52,7 @@ public:
   [[nodiscard]] uint32_t pushBytes() const { return pushBytes_; }
   [[nodiscard]] uint32_t spirvBytes() const { return spirvBytes_; }
   [[nodiscard]] double compileMilliseconds() const { return compileMilliseconds_; }
-  [[nodiscard]] bool usesTextures() const { return usesTextures_; } ///< the specialised module declares set 0
+  [[nodiscard]] bool usesTextures() const { return usesTextures_; } ///< the specialized module declares set 0
 
 private:
   void build(const KernelSource& source, std::span<const SpecConstant> constants, VkDescriptorSetLayout textureLayout);

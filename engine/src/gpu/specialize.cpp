@@ -3,6 +3,7 @@
 #include "isophote/error.hpp"
 
 #include <unordered_map>
+#include <unordered_set>
 
 #include <spirv-tools/optimizer.hpp>
 
@@ -13,12 +14,17 @@ namespace {
 constexpr size_t kHeaderWords = 5;
 constexpr uint32_t kOpExecutionMode = 16;
 constexpr uint32_t kOpConstant = 43;
+constexpr uint32_t kOpTypeVoid = 19;           // the first of the type instructions
+constexpr uint32_t kOpTypeForwardPointer = 39; // the last
+constexpr uint32_t kOpDecorate = 71;
+constexpr uint32_t kOpMemberDecorate = 72;
+constexpr uint32_t kDecorationNoContraction = 42;
 constexpr uint32_t kOpExecutionModeId = 331;
 constexpr uint32_t kModeLocalSize = 17;
 constexpr uint32_t kModeLocalSizeId = 38;
 
 /// Turns LocalSizeId, whose operands are by now plain constants, into LocalSize: the former is valid only with the
-/// maintenance4 feature, and nothing is left to specialise.
+/// maintenance4 feature, and nothing is left to specialize.
 void fixLocalSize(std::vector<uint32_t>& spirv) {
   std::unordered_map<uint32_t, uint32_t> constants; // result id -> value of 32-bit constants
   std::vector<size_t> modes;
@@ -34,6 +40,44 @@ void fixLocalSize(std::vector<uint32_t>& spirv) {
     spirv[at + 2] = kModeLocalSize;
     for (size_t axis = 3; axis < 6; ++axis) spirv[at + axis] = constants.at(spirv[at + axis]);
   }
+}
+
+/// The arithmetic instructions that a compiler may contract or re-associate: OpFNegate, FAdd, FSub, FMul, FDiv, FRem,
+/// FMod, and the products of vectors and matrices up to OpDot.
+bool isFloatArithmetic(uint32_t opcode) {
+  switch (opcode) {
+  case 127:
+  case 129:
+  case 131:
+  case 133:
+  case 136:
+  case 140:
+  case 141:
+    return true;
+  default:
+    return opcode >= 142 && opcode <= 148;
+  }
+}
+
+/// Decorates all floating-point arithmetic with NoContraction (`precise`), so that what a compiler sees around an
+/// expression, which differs between specializations, cannot change how the expression rounds.
+std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) {
+  std::unordered_set<uint32_t> decorated;
+  std::vector<uint32_t> decorations;
+  size_t annotations = 0; // where the first annotation or type stands
+  for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
+    const uint32_t opcode = spirv[at] & 0xffffu;
+    const bool type = opcode >= kOpTypeVoid && opcode <= kOpTypeForwardPointer;
+    if (annotations == 0 && (opcode == kOpDecorate || opcode == kOpMemberDecorate || type)) annotations = at;
+    if (opcode == kOpDecorate && spirv[at + 2] == kDecorationNoContraction) decorated.insert(spirv[at + 1]);
+    if (isFloatArithmetic(opcode) && !decorated.contains(spirv[at + 2])) {
+      decorations.insert(decorations.end(), {3u << 16 | kOpDecorate, spirv[at + 2], kDecorationNoContraction});
+    }
+  }
+  std::vector<uint32_t> result(spirv.begin(), spirv.begin() + static_cast<ptrdiff_t>(annotations));
+  result.insert(result.end(), decorations.begin(), decorations.end());
+  result.insert(result.end(), spirv.begin() + static_cast<ptrdiff_t>(annotations), spirv.end());
+  return result;
 }
 
 /// Freezes and folds, removes dead branches, follows constants through local variables, then removes functions,
@@ -61,7 +105,8 @@ void registerPasses(spvtools::Optimizer& optimizer, std::unordered_map<uint32_t,
 
 } // namespace
 
-std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span<const SpecConstant> constants) {
+std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span<const SpecConstant> constants,
+                                      FloatRounding rounding) {
   std::unordered_map<uint32_t, std::vector<uint32_t>> values;
   for (const auto& constant : constants) values[constant.id] = {constant.value};
 
@@ -77,10 +122,10 @@ std::vector<uint32_t> specializeSpirv(std::span<const uint32_t> spirv, std::span
 
   std::vector<uint32_t> result;
   if (!optimizer.Run(spirv.data(), spirv.size(), &result, options)) {
-    throw Error("SPIR-V specialisation failed: " + problem);
+    throw Error("SPIR-V specialization failed: " + problem);
   }
   fixLocalSize(result);
-  return result;
+  return rounding == FloatRounding::AsWritten ? decorateNoContraction(result) : result;
 }
 
 } // namespace isophote::gpu

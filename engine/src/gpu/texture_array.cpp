@@ -92,14 +92,13 @@ void recordTransition(VkCommandBuffer commands, VkImage image, VkImageLayout fro
 }
 
 /// Copies the pixels in bands of rows of at most kStagingBytes (one row at least).
-void uploadPixels(const Device& device, VkImage image, const TextureUpload& texture, uint32_t bytesPerPixel) {
-  const ImageData& data = *texture.image;
-  const uint64_t rowBytes = static_cast<uint64_t>(data.width) * bytesPerPixel;
+void uploadPixels(const Device& device, VkImage image, const ImageData& data, const TextureFormat& format) {
+  const uint64_t rowBytes = static_cast<uint64_t>(data.width) * format.bytesPerPixel;
   const uint32_t bandRows = static_cast<uint32_t>(std::clamp<uint64_t>(kStagingBytes / rowBytes, 1, data.height));
   const Buffer staging(device, rowBytes * bandRows, Memory::Host, "texture staging");
   for (uint32_t row = 0; row < data.height; row += bandRows) {
     const uint32_t rows = std::min(bandRows, data.height - row);
-    const std::vector<std::byte> pixels = texturePixels(data, texture.srgb, row, row + rows);
+    const std::vector<std::byte> pixels = texturePixels(data, format.format, row, row + rows);
     std::memcpy(staging.mapped(), pixels.data(), pixels.size());
     device.impl().transfer([&](VkCommandBuffer commands) {
       constexpr VkImageLayout kDestination = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
@@ -159,7 +158,7 @@ void TextureArray::create(const Device& device, std::span<const TextureUpload> t
 
 TextureArray::StoredImage TextureArray::storeImage(const Device& device, const TextureUpload& texture,
                                                    const std::string& name) {
-  const TextureFormat format = textureFormat(*texture.image, texture.srgb);
+  const TextureFormat format = textureFormat(*texture.image, texture.srgb, device.isCpu());
   StoredImage& stored = images_.emplace_back(); // filled step by step, so that destroy() finds what exists
   stored.image = createImage(*device_, *texture.image, format.format);
   device_->name(stored.image, VK_OBJECT_TYPE_IMAGE, name);
@@ -177,7 +176,7 @@ TextureArray::StoredImage TextureArray::storeImage(const Device& device, const T
                                    .subresourceRange = kWholeImage};
   check(vkCreateImageView(device_->handle, &info, nullptr, &stored.view), "vkCreateImageView");
   device_->name(stored.view, VK_OBJECT_TYPE_IMAGE_VIEW, name);
-  uploadPixels(device, stored.image, texture, format.bytesPerPixel);
+  uploadPixels(device, stored.image, *texture.image, format);
   return stored;
 }
 

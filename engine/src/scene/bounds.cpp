@@ -16,7 +16,8 @@ void extend(Bounds& bounds, glm::dvec3 point) {
 }
 
 bool contains(const Bounds& outer, const Bounds& inner) {
-  return glm::all(glm::lessThanEqual(outer.lower, inner.lower)) && glm::all(glm::greaterThanEqual(outer.upper, inner.upper));
+  return glm::all(glm::lessThanEqual(outer.lower, inner.lower)) &&
+         glm::all(glm::greaterThanEqual(outer.upper, inner.upper));
 }
 
 glm::dvec3 transformed(const glm::dmat4& matrix, glm::dvec3 point) { return glm::dvec3(matrix * glm::dvec4(point, 1)); }
@@ -60,7 +61,8 @@ Bounds worldBounds(const Scene& scene) {
 }
 
 Camera framingCamera(const Scene& scene, double aspectRatio) {
-  if (!(aspectRatio > 0) || !std::isfinite(aspectRatio)) throw UsageError("the aspect ratio of a camera has to be above 0");
+  if (!(aspectRatio > 0) || !std::isfinite(aspectRatio))
+    throw UsageError("the aspect ratio of a camera has to be above 0");
   Bounds bounds = worldBounds(scene);
   if (bounds.empty()) bounds = {glm::dvec3(-1), glm::dvec3(1)};
   const glm::dvec3 center = 0.5 * (bounds.lower + bounds.upper);
@@ -84,8 +86,8 @@ Camera framingCamera(const Scene& scene, double aspectRatio) {
   // A scene that is a point has no size; any distance that double can tell from the center will do.
   constexpr double kSmallestRelative = 1e-9;
   distance = std::max(distance, kSmallestRelative * std::max(1.0, glm::length(center)));
-  camera.worldFromCamera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0),
-                                      glm::dvec4(center + distance * back, 1));
+  camera.worldFromCamera =
+      glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0), glm::dvec4(center + distance * back, 1));
   return camera;
 }
 

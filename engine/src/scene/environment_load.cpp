@@ -43,7 +43,8 @@ Environment fromExr(const std::filesystem::path& file) {
   }
   const uint64_t count = uint64_t{image.width} * image.height;
   if (count > kMaxPixels) {
-    throw LimitError(fmt::format("{}: {} x {} pixels, the limit is {}", file.string(), image.width, image.height, kMaxPixels));
+    throw LimitError(
+        fmt::format("{}: {} x {} pixels, the limit is {}", file.string(), image.width, image.height, kMaxPixels));
   }
   Environment environment{.width = image.width, .height = image.height};
   environment.pixels.resize(count);
@@ -87,8 +88,8 @@ void repair(Environment& environment, WarningLog& log) {
   }
   log.add(fmt::format("{} pixels with NaN are set to 0", nanCount), "", nanCount > 0);
   log.add(fmt::format("{} pixels with negative values are set to 0", negativeCount), "", negativeCount > 0);
-  log.add(fmt::format("{} pixels with infinite values are set to the largest finite one, {}", infiniteCount, largest), "",
-          infiniteCount > 0);
+  log.add(fmt::format("{} pixels with infinite values are set to the largest finite one, {}", infiniteCount, largest),
+          "", infiniteCount > 0);
 }
 
 } // namespace

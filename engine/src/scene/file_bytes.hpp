@@ -16,8 +16,7 @@ using Bytes = std::vector<std::byte>;
 ///
 /// `reportedFile` and `pointer` name the place that errors are reported for.
 /// @throws SceneError where it is missing, not a regular file or unreadable; LimitError where it is too large
-[[nodiscard]] Bytes readFileBytes(const std::filesystem::path& path, uint64_t maxBytes,
-                                  const std::string& reportedFile, const std::string& pointer,
-                                  std::optional<uint64_t> wantedBytes = std::nullopt);
+[[nodiscard]] Bytes readFileBytes(const std::filesystem::path& path, uint64_t maxBytes, const std::string& reportedFile,
+                                  const std::string& pointer, std::optional<uint64_t> wantedBytes = std::nullopt);
 
 } // namespace isophote

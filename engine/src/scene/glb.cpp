@@ -27,13 +27,15 @@ uint32_t readU32(std::span<const std::byte> bytes, size_t offset) {
 bool isGlb(std::span<const std::byte> bytes) { return bytes.size() >= 4 && readU32(bytes, 0) == kMagic; }
 
 GlbChunks splitGlb(const std::string& file, std::span<const std::byte> bytes, WarningLog& warnings) {
-  if (bytes.size() < kHeaderBytes) throw SceneError(file, "", "a GLB header of 12 bytes (GLB_UNEXPECTED_END_OF_HEADER)");
+  if (bytes.size() < kHeaderBytes)
+    throw SceneError(file, "", "a GLB header of 12 bytes (GLB_UNEXPECTED_END_OF_HEADER)");
   const uint32_t version = readU32(bytes, 4);
   if (version != 2) throw SceneError(file, "", fmt::format("GLB version 2, found {} (GLB_INVALID_VERSION)", version));
   const uint32_t length = readU32(bytes, 8);
   if (length > bytes.size() || length < kHeaderBytes) {
-    throw SceneError(file, "", fmt::format("a GLB length of {} bytes, the header says {} (GLB_LENGTH_MISMATCH)",
-                                           bytes.size(), length));
+    throw SceneError(
+        file, "",
+        fmt::format("a GLB length of {} bytes, the header says {} (GLB_LENGTH_MISMATCH)", bytes.size(), length));
   }
   if (length < bytes.size()) warnings.add("bytes after the end of the GLB are ignored");
 
@@ -48,8 +50,9 @@ GlbChunks splitGlb(const std::string& file, std::span<const std::byte> bytes, Wa
     const uint32_t type = readU32(bytes, offset + 4);
     offset += kChunkHeaderBytes;
     if (chunkBytes > length - offset) {
-      throw SceneError(file, "", fmt::format("GLB chunk {} inside the file, {} bytes are left of its {} (GLB_CHUNK_TOO_BIG)",
-                                             index, length - offset, chunkBytes));
+      throw SceneError(file, "",
+                       fmt::format("GLB chunk {} inside the file, {} bytes are left of its {} (GLB_CHUNK_TOO_BIG)",
+                                   index, length - offset, chunkBytes));
     }
     const auto chunk = bytes.subspan(offset, chunkBytes);
     if ((index == 0) != (type == kJsonChunk)) {

@@ -26,11 +26,14 @@ constexpr std::array<TypeShape, 7> kTypes{
 uint32_t componentBytes(ComponentType type) {
   switch (type) {
   case ComponentType::Int8:
-  case ComponentType::UInt8: return 1;
+  case ComponentType::UInt8:
+    return 1;
   case ComponentType::Int16:
-  case ComponentType::UInt16: return 2;
+  case ComponentType::UInt16:
+    return 2;
   case ComponentType::UInt32:
-  case ComponentType::Float: break;
+  case ComponentType::Float:
+    break;
   }
   return 4;
 }
@@ -50,12 +53,18 @@ template <class T> float normalizedOr(const std::byte* from, bool normalized) {
 
 float loadFloat(const std::byte* from, ComponentType type, bool normalized) {
   switch (type) {
-  case ComponentType::Int8: return normalizedOr<int8_t>(from, normalized);
-  case ComponentType::UInt8: return normalizedOr<uint8_t>(from, normalized);
-  case ComponentType::Int16: return normalizedOr<int16_t>(from, normalized);
-  case ComponentType::UInt16: return normalizedOr<uint16_t>(from, normalized);
-  case ComponentType::UInt32: return static_cast<float>(load<uint32_t>(from));
-  case ComponentType::Float: break;
+  case ComponentType::Int8:
+    return normalizedOr<int8_t>(from, normalized);
+  case ComponentType::UInt8:
+    return normalizedOr<uint8_t>(from, normalized);
+  case ComponentType::Int16:
+    return normalizedOr<int16_t>(from, normalized);
+  case ComponentType::UInt16:
+    return normalizedOr<uint16_t>(from, normalized);
+  case ComponentType::UInt32:
+    return static_cast<float>(load<uint32_t>(from));
+  case ComponentType::Float:
+    break;
   }
   return load<float>(from);
 }
@@ -113,9 +122,10 @@ private:
     layout.stride = integerOr(views_[view], "byteStride", layout.elementBytes);
     const uint32_t size = componentBytes(layout.componentType);
     if (layout.stride < layout.elementBytes || layout.stride % size != 0) {
-      document_.fail(fmt::format("/bufferViews/{}/byteStride", view),
-                     fmt::format("a multiple of {} of at least {} for accessor {}, found {} (ACCESSOR_TOTAL_OFFSET_ALIGNMENT)",
-                                 size, layout.elementBytes, pointer, layout.stride));
+      document_.fail(
+          fmt::format("/bufferViews/{}/byteStride", view),
+          fmt::format("a multiple of {} of at least {} for accessor {}, found {} (ACCESSOR_TOTAL_OFFSET_ALIGNMENT)",
+                      size, layout.elementBytes, pointer, layout.stride));
     }
     checkAlignment(view, offset, size, pointer + "/byteOffset");
     const std::span<const std::byte> bytes = buffers_.view(view);

@@ -28,8 +28,8 @@ enum class ComponentType : uint32_t {
 struct AccessorLayout {
   ComponentType componentType = ComponentType::Float;
   bool normalized = false;
-  uint32_t componentCount = 0;             ///< 1 to 16
-  std::array<uint32_t, 16> offsets{};      ///< of each component in an element; matrix columns start at multiples of 4
+  uint32_t componentCount = 0;        ///< 1 to 16
+  std::array<uint32_t, 16> offsets{}; ///< of each component in an element; matrix columns start at multiples of 4
   uint64_t count = 0;
   uint64_t stride = 0;
   std::span<const std::byte> data;         ///< from the first element; empty: zeros

@@ -15,12 +15,16 @@ constexpr uint32_t kAnySmallInteger = kSignedNormalized | kUnsignedNormalized | 
 /// 0 for 32-bit integers, which no attribute may use.
 uint32_t numberKind(const AccessorLayout& layout) {
   switch (layout.componentType) {
-  case ComponentType::Float: return kFloat;
+  case ComponentType::Float:
+    return kFloat;
   case ComponentType::Int8:
-  case ComponentType::Int16: return layout.normalized ? kSignedNormalized : kSignedInteger;
+  case ComponentType::Int16:
+    return layout.normalized ? kSignedNormalized : kSignedInteger;
   case ComponentType::UInt8:
-  case ComponentType::UInt16: return layout.normalized ? kUnsignedNormalized : kUnsignedInteger;
-  case ComponentType::UInt32: break;
+  case ComponentType::UInt16:
+    return layout.normalized ? kUnsignedNormalized : kUnsignedInteger;
+  case ComponentType::UInt32:
+    break;
   }
   return 0;
 }
@@ -73,8 +77,9 @@ private:
   void requireFinite(const std::vector<glm::vec3>& positions) const {
     const auto bad = std::find_if(positions.begin(), positions.end(), [](glm::vec3 p) { return !isFinite(p); });
     if (bad == positions.end()) return;
-    document_.fail(accessorPointer(*indexOf(attributes_, "POSITION")),
-                   fmt::format("finite positions, element {} is not (ACCESSOR_INVALID_FLOAT)", bad - positions.begin()));
+    document_.fail(
+        accessorPointer(*indexOf(attributes_, "POSITION")),
+        fmt::format("finite positions, element {} is not (ACCESSOR_INVALID_FLOAT)", bad - positions.begin()));
   }
 
   void readUvs() {
@@ -154,11 +159,11 @@ void requireFormat(const Document& document, const Accessors& accessors, uint32_
                    uint32_t kinds, const std::string& pointer) {
   const AccessorLayout& layout = accessors.layout(accessor);
   if (layout.componentCount != components || (numberKind(layout) & kinds) == 0) {
-    document.fail(pointer, fmt::format("an accessor of another type, {} has {} components of type {}{} "
-                                       "(MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT)",
-                                       accessorPointer(accessor), layout.componentCount,
-                                       static_cast<uint32_t>(layout.componentType),
-                                       layout.normalized ? ", normalized" : ""));
+    document.fail(pointer,
+                  fmt::format("an accessor of another type, {} has {} components of type {}{} "
+                              "(MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT)",
+                              accessorPointer(accessor), layout.componentCount,
+                              static_cast<uint32_t>(layout.componentType), layout.normalized ? ", normalized" : ""));
   }
 }
 

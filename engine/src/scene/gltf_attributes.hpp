@@ -33,7 +33,7 @@ struct Attributes {
 /// Kinds of numbers an attribute may be stored in, to be combined with |.
 enum NumberKind : uint32_t {
   kFloat = 1,
-  kSignedNormalized = 2,   ///< 8 or 16 bits, as the other integers
+  kSignedNormalized = 2, ///< 8 or 16 bits, as the other integers
   kUnsignedNormalized = 4,
   kSignedInteger = 8,
   kUnsignedInteger = 16,

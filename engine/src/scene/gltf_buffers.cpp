@@ -35,8 +35,8 @@ std::span<const std::byte> loadBuffer(const Document& document, size_t index, By
   const uint64_t byteLength = buffer.at("byteLength").get<uint64_t>();
   std::span<const std::byte> bytes;
   if (buffer.contains("uri")) {
-    storage = loadUri(document, buffer.at("uri").get<std::string>(), pointer + "/uri",
-                      document.options.maxBufferBytes, byteLength)
+    storage = loadUri(document, buffer.at("uri").get<std::string>(), pointer + "/uri", document.options.maxBufferBytes,
+                      byteLength)
                   .bytes;
     bytes = storage;
   } else if (index == 0 && !document.binaryChunk.empty()) {

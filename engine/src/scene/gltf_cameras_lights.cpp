@@ -21,7 +21,8 @@ void requireThat(const Document& document, bool holds, const std::string& pointe
 void readClipping(const Document& document, const Json& json, const std::string& pointer, Camera& camera) {
   camera.znear = numberOr(json, "znear", 0);
   camera.zfar = numberOr(json, "zfar", 0);
-  if (json.contains("zfar")) requireThat(document, camera.zfar > camera.znear, pointer + "/zfar", "a value above znear");
+  if (json.contains("zfar"))
+    requireThat(document, camera.zfar > camera.znear, pointer + "/zfar", "a value above znear");
 }
 
 void readPerspective(const Document& document, const Json& json, const std::string& pointer, Camera& camera) {
@@ -170,7 +171,8 @@ std::vector<PunctualLight> readLights(Document& document) {
   if (!lights) return result;
   const Json& list = arrayOrEmpty(*lights, "lights");
   for (size_t i = 0; i < list.size(); ++i) {
-    result.push_back(LightReader(document, list[i], fmt::format("/extensions/KHR_lights_punctual/lights/{}", i)).read());
+    result.push_back(
+        LightReader(document, list[i], fmt::format("/extensions/KHR_lights_punctual/lights/{}", i)).read());
   }
   return result;
 }

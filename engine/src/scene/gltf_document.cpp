@@ -87,7 +87,7 @@ Document openDocument(const std::filesystem::path& file, const LoadOptions& opti
     document.binaryChunk = chunks.binary;
   } else {
     document.root = parseJson(document.file, document.fileBytes);
-    document.fileBytes = {};
+    document.fileBytes = Bytes(); // the tree holds all of it
   }
   checkVersion(document);
   checkExtensions(document);

@@ -20,7 +20,7 @@ struct Document {
   Bytes fileBytes;                        ///< of a .glb; empty for a .gltf
   std::span<const std::byte> binaryChunk; ///< into fileBytes; empty where there is none
   WarningLog warnings;
-  uint64_t decodedBytes = 0;              ///< claimed so far
+  uint64_t decodedBytes = 0; ///< claimed so far
 
   /// @throws SceneError
   [[noreturn]] void fail(const std::string& pointer, const std::string& expected) const;

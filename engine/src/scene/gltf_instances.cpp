@@ -72,7 +72,8 @@ private:
     const std::string pointer = fmt::format("/skins/{}/inverseBindMatrices", index);
     requireFormat(document_, accessors_, *accessor, 16, kFloat, pointer);
     if (accessors_.layout(*accessor).count < jointCount) {
-      document_.fail(pointer, fmt::format("a matrix for each of the {} joints (INVALID_IBM_ACCESSOR_COUNT)", jointCount));
+      document_.fail(pointer,
+                     fmt::format("a matrix for each of the {} joints (INVALID_IBM_ACCESSOR_COUNT)", jointCount));
     }
     return accessors_.readFloats<glm::mat4>(*accessor);
   }
@@ -119,8 +120,8 @@ private:
       return;
     }
     if (scene_.instances.size() >= document_.options.maxNodes) {
-      throw LimitError(fmt::format("{}: {}: more than {} instances", document_.file, nodePointer(node),
-                                   document_.options.maxNodes));
+      throw LimitError(
+          fmt::format("{}: {}: more than {} instances", document_.file, nodePointer(node), document_.options.maxNodes));
     }
     scene_.instances.push_back({*mesh, worldFromObject, stringOr(nodes_[node], "name", "")});
   }

@@ -1,6 +1,6 @@
 #include "scene/gltf_json.hpp"
 
-#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,54 +10,72 @@
 namespace isophote::gltf {
 namespace {
 
-/// A linear scan, so that neither the parser nor anything after it can be driven into deep nesting.
-void checkDepth(const std::string& file, std::span<const std::byte> text) {
-  uint32_t depth = 0;
-  bool inString = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = static_cast<char>(text[i]);
-    if (inString) {
-      if (c == '\\') {
-        ++i;
-      } else if (c == '"') {
-        inString = false;
-      }
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kMaxJsonDepth) {
-        throw SceneError(file, "", fmt::format("JSON nested at most {} deep, deeper at byte {}", kMaxJsonDepth, i));
-      }
-    } else if ((c == '}' || c == ']') && depth > 0) {
-      --depth;
-    }
-  }
-}
-
-/// Parser callback: remembers the keys of every open object. RFC 8259 leaves repeated keys undefined; glTF forbids them.
-class DuplicateKeyCheck {
+/// Builds the tree from parser events. nlohmann's own builder accepts repeated keys and any depth, and its variant with
+/// a callback takes time quadratic in the length of arrays.
+class TreeBuilder final : public nlohmann::json_sax<Json> {
 public:
-  explicit DuplicateKeyCheck(const std::string& file) : file_(file) {}
+  explicit TreeBuilder(const std::string& file) : file_(file) {}
 
-  /// `depth`: the number of arrays and objects around the value (nlohmann's count; a key is inside its object).
-  /// The end of an object is not reported where its value is dropped, so the depth alone says which object is meant.
-  bool operator()(size_t depth, Json::parse_event_t event, const Json& parsed) {
-    if (event == Json::parse_event_t::object_start) {
-      keys_.resize(depth + 1);
-      keys_[depth].clear();
-    } else if (event == Json::parse_event_t::key) {
-      const std::string& key = parsed.get_ref<const std::string&>();
-      if (!keys_[depth - 1].insert(key).second) {
-        throw SceneError(file_, "", fmt::format("every key of an object once, \"{}\" stands twice", key));
-      }
-      return key != "extras"; // application data: dropped, no glTF feature lives there
-    }
+  [[nodiscard]] Json take() { return std::move(root_); }
+
+  bool null() override { return put(nullptr); }
+  bool boolean(bool value) override { return put(value); }
+  bool number_integer(int64_t value) override { return put(value); }
+  bool number_unsigned(uint64_t value) override { return put(value); }
+  bool number_float(double value, const std::string&) override { return put(value); }
+  bool string(std::string& value) override { return put(std::move(value)); }
+  bool binary(Json::binary_t&) override { return false; } // not in JSON text
+  bool start_object(size_t) override { return open(Json::object()); }
+  bool start_array(size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(std::string& name) override {
+    const auto [place, isNew] = open_.back()->get_ref<Json::object_t&>().try_emplace(name);
+    if (!isNew) throw SceneError(file_, "", fmt::format("every key of an object once, \"{}\" stands twice", name));
+    member_ = &place->second;
     return true;
   }
 
+  bool parse_error(size_t, const std::string&, const Json::exception& error) override {
+    throw SceneError(file_, "", fmt::format("valid JSON ({})", error.what()));
+  }
+
 private:
+  template <class Value> bool put(Value&& value) {
+    place(std::forward<Value>(value));
+    return true;
+  }
+
+  /// Pointers into arrays stay valid: an array does not grow while one of its elements is open.
+  template <class Value> Json* place(Value&& value) {
+    Json* where = &root_;
+    if (!open_.empty() && open_.back()->is_array()) {
+      where = &open_.back()->emplace_back();
+    } else if (!open_.empty()) {
+      where = member_;
+    }
+    *where = std::forward<Value>(value);
+    return where;
+  }
+
+  bool open(Json container) {
+    if (open_.size() == kMaxJsonDepth) {
+      throw SceneError(file_, "", fmt::format("JSON nested at most {} deep", kMaxJsonDepth));
+    }
+    open_.push_back(place(std::move(container)));
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
   const std::string& file_;
-  std::vector<std::unordered_set<std::string>> keys_;
+  Json root_;
+  std::vector<Json*> open_;
+  Json* member_ = nullptr; ///< of the innermost object, waits for its value
 };
 
 } // namespace
@@ -66,19 +84,10 @@ Json parseJson(const std::string& file, std::span<const std::byte> text) {
   if (text.size() > kMaxJsonBytes) {
     throw LimitError(fmt::format("{}: {} bytes of JSON, the limit is {}", file, text.size(), kMaxJsonBytes));
   }
-  checkDepth(file, text);
   const char* begin = reinterpret_cast<const char*>(text.data());
-  DuplicateKeyCheck check(file);
-  Json root;
-  try {
-    root = Json::parse(
-        begin, begin + text.size(),
-        [&check](int depth, Json::parse_event_t event, Json& parsed) {
-          return check(static_cast<size_t>(depth), event, parsed);
-        });
-  } catch (const Json::exception& error) {
-    throw SceneError(file, "", fmt::format("valid JSON ({})", error.what()));
-  }
+  TreeBuilder builder(file);
+  Json::sax_parse(begin, begin + text.size(), &builder);
+  Json root = builder.take();
   if (!root.is_object()) throw SceneError(file, "", "a JSON object at the root");
   return root;
 }

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 inline constexpr uint64_t kMaxJsonBytes = 512ull << 20; ///< a tree takes about ten times its text
 inline constexpr uint32_t kMaxJsonDepth = 128;          ///< glTF itself nests to about 10
 
-/// Parses UTF-8 JSON text whose root is an object; members called "extras" are dropped.
+/// Parses UTF-8 JSON text whose root is an object.
 /// @throws SceneError on a syntax error, nesting deeper than kMaxJsonDepth, a key given twice, a number beyond double
 /// @throws LimitError on more than kMaxJsonBytes
 [[nodiscard]] Json parseJson(const std::string& file, std::span<const std::byte> text);

@@ -94,7 +94,8 @@ private:
   float clamped(const Json& value, const char* name, float lower, float upper) {
     const float number = value.get<float>();
     if (number < lower || number > upper) {
-      const std::string range = upper == FLT_MAX ? fmt::format("at least {}", lower) : fmt::format("in [{}, {}]", lower, upper);
+      const std::string range =
+          upper == FLT_MAX ? fmt::format("at least {}", lower) : fmt::format("in [{}, {}]", lower, upper);
       document_.warnings.add(fmt::format("{} is clamped, it has to be {}", name, range), pointer_);
     }
     return std::clamp(number, lower, upper);

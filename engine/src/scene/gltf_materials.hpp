@@ -20,8 +20,7 @@ namespace isophote::gltf {
 /// Puts the materials that are drawn into the scene, in order of first use.
 class MaterialTable {
 public:
-  MaterialTable(Document& document, Textures& textures)
-      : materials_(readMaterials(document)), textures_(textures) {}
+  MaterialTable(Document& document, Textures& textures) : materials_(readMaterials(document)), textures_(textures) {}
 
   /// The index in Scene::materials of a glTF material, or of the default material. Decodes its images on first use.
   [[nodiscard]] uint32_t use(std::optional<uint32_t> material, Scene& scene);

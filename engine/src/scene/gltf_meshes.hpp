@@ -32,8 +32,7 @@ private:
                                                        Scene& scene);
   [[nodiscard]] std::vector<uint32_t> readIndices(const Json& json, const std::string& pointer, uint64_t vertexCount);
   void clean(Primitive& primitive, const std::string& pointer);
-  void assignMaterial(std::optional<uint32_t> material, const std::string& pointer, Primitive& primitive,
-                      Scene& scene);
+  void assignMaterial(std::optional<uint32_t> material, const std::string& pointer, Primitive& primitive, Scene& scene);
   void fillMissingUvs(const std::string& pointer, Material& material, Primitive& primitive);
 
   using Key = std::tuple<uint32_t, std::optional<uint32_t>, std::vector<double>>; ///< mesh, node, morph weights

@@ -64,7 +64,8 @@ bool isSingular(const glm::dmat4& transform) {
 glm::dmat4 transformFrom(glm::dvec3 translation, glm::dvec4 rotation, glm::dvec3 scale) {
   const double length = glm::length(rotation);
   glm::dquat quaternion(1, 0, 0, 0);
-  if (length > 0) quaternion = glm::dquat(rotation.w / length, rotation.x / length, rotation.y / length, rotation.z / length);
+  if (length > 0)
+    quaternion = glm::dquat(rotation.w / length, rotation.x / length, rotation.y / length, rotation.z / length);
   return glm::translate(glm::dmat4(1), translation) * glm::mat4_cast(quaternion) * glm::scale(glm::dmat4(1), scale);
 }
 
@@ -110,7 +111,8 @@ void NodeGraph::refuseLoops() const {
     if (node >= 0 && state[static_cast<size_t>(node)] == walk) {
       document_.fail(nodePointer(static_cast<uint32_t>(node)), "a node that is not its own ancestor (NODE_LOOP)");
     }
-    for (node = start; node >= 0 && state[static_cast<size_t>(node)] == walk; node = parents_[static_cast<size_t>(node)]) {
+    for (node = start; node >= 0 && state[static_cast<size_t>(node)] == walk;
+         node = parents_[static_cast<size_t>(node)]) {
       state[static_cast<size_t>(node)] = kReachesRoot;
     }
   }
@@ -137,7 +139,8 @@ std::vector<uint32_t> NodeGraph::sceneRoots() const {
   for (size_t i = 0; i < nodes.size(); ++i) {
     const auto node = nodes[i].get<uint32_t>();
     const std::string pointer = fmt::format("/scenes/{}/nodes/{}", chosen, i);
-    if (parents_[node] >= 0) document_.fail(pointer, fmt::format("a root node, node {} has a parent (SCENE_NON_ROOT_NODE)", node));
+    if (parents_[node] >= 0)
+      document_.fail(pointer, fmt::format("a root node, node {} has a parent (SCENE_NON_ROOT_NODE)", node));
     if (!seen.insert(node).second) document_.fail(pointer, fmt::format("every node once, node {} is repeated", node));
     roots.push_back(node);
   }

@@ -11,9 +11,9 @@
 namespace isophote::gltf {
 
 struct Pose {
-  std::vector<double> morphWeights;            ///< one a target; missing ones are 0
-  std::vector<glm::dmat4> objectFromBind;      ///< one a joint; empty: no skin
-  glm::dmat4 objectFromUnskinned{1};           ///< with a skin: for primitives that have no joints
+  std::vector<double> morphWeights;       ///< one a target; missing ones are 0
+  std::vector<glm::dmat4> objectFromBind; ///< one a joint; empty: no skin
+  glm::dmat4 objectFromUnskinned{1};      ///< with a skin: for primitives that have no joints
 };
 
 /// Adds the weighted targets of `primitive`. @throws SceneError

@@ -26,12 +26,12 @@ enum class Kind { Any, Bool, Integer, Number, String, Index, Array, Object, Map 
 /// What one value has to look like.
 struct Shape {
   Kind kind = Kind::Any;
-  double lower = -DBL_MAX; ///< Integer, Number: inclusive; Array: fewest items
-  double upper = DBL_MAX;  ///< Integer, Number: inclusive; Array: most items
-  std::vector<double> choices = {};    ///< Integer: when not empty, the only values
-  const char* target = nullptr;        ///< Index: pointer of the array it points into
-  const Shape* item = nullptr;         ///< Array, Map: of every element
-  std::vector<Member> members = {};    ///< Object; further members are ignored
+  double lower = -DBL_MAX;          ///< Integer, Number: inclusive; Array: fewest items
+  double upper = DBL_MAX;           ///< Integer, Number: inclusive; Array: most items
+  std::vector<double> choices = {}; ///< Integer: when not empty, the only values
+  const char* target = nullptr;     ///< Index: pointer of the array it points into
+  const Shape* item = nullptr;      ///< Array, Map: of every element
+  std::vector<Member> members = {}; ///< Object; further members are ignored
 };
 
 const Shape kBool{.kind = Kind::Bool};
@@ -87,12 +87,11 @@ const Shape kMesh = object({{"name", &kString}, {"primitives", &kPrimitives, tru
 
 const Shape kComponentType{.kind = Kind::Integer, .choices = {5120, 5121, 5122, 5123, 5125, 5126}};
 const Shape kIndexComponentType{.kind = Kind::Integer, .choices = {5121, 5123, 5125}};
-const Shape kSparseIndices = object({{"bufferView", &kViewIndex, true},
-                                     {"byteOffset", &kUnsigned},
-                                     {"componentType", &kIndexComponentType, true}});
+const Shape kSparseIndices = object(
+    {{"bufferView", &kViewIndex, true}, {"byteOffset", &kUnsigned}, {"componentType", &kIndexComponentType, true}});
 const Shape kSparseValues = object({{"bufferView", &kViewIndex, true}, {"byteOffset", &kUnsigned}});
-const Shape kSparse = object(
-    {{"count", &kPositive, true}, {"indices", &kSparseIndices, true}, {"values", &kSparseValues, true}});
+const Shape kSparse =
+    object({{"count", &kPositive, true}, {"indices", &kSparseIndices, true}, {"values", &kSparseValues, true}});
 const Shape kAccessor = object({{"bufferView", &kViewIndex},
                                 {"byteOffset", &kUnsigned},
                                 {"componentType", &kComponentType, true},
@@ -107,8 +106,7 @@ const Shape kBufferView = object({{"buffer", &kBufferIndex, true},
                                   {"byteStride", &kStride}});
 const Shape kMeshoptBuffer = object({{"fallback", &kBool}});
 const Shape kBufferExtensions = object({{"EXT_meshopt_compression", &kMeshoptBuffer}});
-const Shape kBuffer =
-    object({{"uri", &kString}, {"byteLength", &kPositive, true}, {"extensions", &kBufferExtensions}});
+const Shape kBuffer = object({{"uri", &kString}, {"byteLength", &kPositive, true}, {"extensions", &kBufferExtensions}});
 
 // Nodes
 const Shape kLightReference = object({{"light", &kLightIndex, true}});
@@ -174,20 +172,18 @@ const Shape kTexture =
 const Shape kMagnification{.kind = Kind::Integer, .choices = {9728, 9729}};
 const Shape kMinification{.kind = Kind::Integer, .choices = {9728, 9729, 9984, 9985, 9986, 9987}};
 const Shape kWrap{.kind = Kind::Integer, .choices = {10497, 33071, 33648}};
-const Shape kSampler = object(
-    {{"magFilter", &kMagnification}, {"minFilter", &kMinification}, {"wrapS", &kWrap}, {"wrapT", &kWrap}});
+const Shape kSampler =
+    object({{"magFilter", &kMagnification}, {"minFilter", &kMinification}, {"wrapS", &kWrap}, {"wrapT", &kWrap}});
 const Shape kImage =
     object({{"name", &kString}, {"uri", &kString}, {"mimeType", &kString}, {"bufferView", &kViewIndex}});
 
 // Cameras and lights
-const Shape kPerspective = object(
-    {{"aspectRatio", &kNumber}, {"yfov", &kNumber, true}, {"zfar", &kNumber}, {"znear", &kNumber, true}});
-const Shape kOrthographic = object(
-    {{"xmag", &kNumber, true}, {"ymag", &kNumber, true}, {"zfar", &kNumber, true}, {"znear", &kNumber, true}});
-const Shape kCamera = object({{"name", &kString},
-                              {"type", &kString, true},
-                              {"perspective", &kPerspective},
-                              {"orthographic", &kOrthographic}});
+const Shape kPerspective =
+    object({{"aspectRatio", &kNumber}, {"yfov", &kNumber, true}, {"zfar", &kNumber}, {"znear", &kNumber, true}});
+const Shape kOrthographic =
+    object({{"xmag", &kNumber, true}, {"ymag", &kNumber, true}, {"zfar", &kNumber, true}, {"znear", &kNumber, true}});
+const Shape kCamera = object(
+    {{"name", &kString}, {"type", &kString, true}, {"perspective", &kPerspective}, {"orthographic", &kOrthographic}});
 const Shape kSpot = object({{"innerConeAngle", &kFloat}, {"outerConeAngle", &kFloat}});
 const Shape kLight = object({{"name", &kString},
                              {"type", &kString, true},
@@ -235,15 +231,24 @@ public:
 
   void check(const Json& value, const Shape& shape) {
     switch (shape.kind) {
-    case Kind::Any: return;
-    case Kind::Bool: return require(value.is_boolean(), "true or false", value);
-    case Kind::String: return require(value.is_string(), "a string", value);
-    case Kind::Number: return checkNumber(value, shape);
-    case Kind::Integer: return checkInteger(value, shape);
-    case Kind::Index: return checkIndex(value, shape);
-    case Kind::Array: return checkArray(value, shape);
-    case Kind::Object: return checkObject(value, shape);
-    case Kind::Map: return checkMap(value, shape);
+    case Kind::Any:
+      return;
+    case Kind::Bool:
+      return require(value.is_boolean(), "true or false", value);
+    case Kind::String:
+      return require(value.is_string(), "a string", value);
+    case Kind::Number:
+      return checkNumber(value, shape);
+    case Kind::Integer:
+      return checkInteger(value, shape);
+    case Kind::Index:
+      return checkIndex(value, shape);
+    case Kind::Array:
+      return checkArray(value, shape);
+    case Kind::Object:
+      return checkObject(value, shape);
+    case Kind::Map:
+      return checkMap(value, shape);
     }
   }
 

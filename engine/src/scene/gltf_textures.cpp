@@ -48,7 +48,8 @@ void checkMediaType(const Document& document, const EncodedImage& encoded, const
   const std::string actual = *format == ImageFormat::Png ? "image/png" : "image/jpeg";
   const bool declaresOther = encoded.mediaType.starts_with("image/") && encoded.mediaType != actual;
   if (declaresOther) {
-    document.fail(pointer, fmt::format("{} as declared, the bytes are {} (IMAGE_MIME_TYPE_INVALID)", encoded.mediaType, actual));
+    document.fail(pointer,
+                  fmt::format("{} as declared, the bytes are {} (IMAGE_MIME_TYPE_INVALID)", encoded.mediaType, actual));
   }
 }
 
@@ -95,10 +96,15 @@ uint32_t Textures::useImage(uint32_t index, Scene& scene) {
   checkMediaType(document_, encoded, pointer);
   ImageData image;
   image.name = stringOr(json, "name", "");
-  const DecodeProblem problem = decodeImage(encoded.bytes, document_.options.maxImagePixels, image);
-  if (!problem.tooLarge.empty()) throw LimitError(fmt::format("{}: {}: {}", document_.file, pointer, problem.tooLarge));
-  if (!problem.broken.empty()) document_.fail(pointer, "a readable image, " + problem.broken + " (IMAGE_DATA_INVALID)");
-  document_.claim(image.pixels.size(), pointer);
+  const auto refuse = [&](const DecodeProblem& problem) {
+    if (!problem.tooLarge.empty())
+      throw LimitError(fmt::format("{}: {}: {}", document_.file, pointer, problem.tooLarge));
+    if (!problem.broken.empty())
+      document_.fail(pointer, "a readable image, " + problem.broken + " (IMAGE_DATA_INVALID)");
+  };
+  refuse(readImageHeader(encoded.bytes, document_.options.maxImagePixels, image));
+  document_.claim(uint64_t{image.width} * image.height * 4 * image.bitsPerChannel / 8, pointer);
+  refuse(decodeImage(encoded.bytes, image));
   const auto result = static_cast<uint32_t>(scene.images.size());
   scene.images.push_back(std::move(image));
   images_.emplace(index, result);

@@ -1,7 +1,6 @@
 #include "scene/stb_decode.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdlib>
 #include <cstring>
@@ -80,37 +79,61 @@ struct FreePixels {
 };
 template <class T> using Pixels = std::unique_ptr<T, FreePixels>;
 
-struct Header {
+struct Size {
   int width = 0;
   int height = 0;
-  DecodeProblem problem;
 };
 
-/// Reads the size and sets the ceiling for what decoding may allocate.
-Header readHeader(std::span<const std::byte> bytes, uint64_t maxPixels) {
-  allocationLimit = kScratchBytes;
-  Header header;
-  Source source{bytes};
-  int channels = 0;
-  if (!stbi_info_from_callbacks(&kCallbacks, &source, &header.width, &header.height, &channels) || header.width <= 0 ||
-      header.height <= 0) {
-    header.problem.broken = fmt::format("its header cannot be read ({})", stbi_failure_reason());
-    return header;
-  }
-  const uint64_t pixels = static_cast<uint64_t>(header.width) * static_cast<uint64_t>(header.height);
-  if (pixels > maxPixels) {
-    header.problem.tooLarge =
-        fmt::format("{} x {} pixels, the limit is {} pixels", header.width, header.height, maxPixels);
-    return header;
-  }
+/// The ceiling that decoding so many pixels has to stay under.
+size_t allocationLimitFor(uint64_t pixels) {
   constexpr size_t kMaxBytesPerPixel = 16; // four floats; four 16-bit channels inflated into a buffer doubled in size
-  allocationLimit = kScratchBytes + static_cast<size_t>(pixels) * kMaxBytesPerPixel;
-  return header;
+  return kScratchBytes + static_cast<size_t>(pixels) * kMaxBytesPerPixel;
 }
 
-std::string brokenReason(const Source& source, const void* pixels) {
-  if (!pixels) return fmt::format("it cannot be decoded ({})", stbi_failure_reason());
-  return source.readPastEnd ? "it is truncated" : "";
+std::string tooLarge(uint64_t width, uint64_t height, uint64_t maxPixels) {
+  return fmt::format("{} x {} pixels, the limit is {} pixels", width, height, maxPixels);
+}
+
+/// stb_image refuses sizes whose bytes do not fit an int with this reason.
+bool isTooLargeForStb() { return std::string_view(stbi_failure_reason()) == "too large"; }
+
+DecodeProblem readSize(std::span<const std::byte> bytes, uint64_t maxPixels, Size& size) {
+  allocationLimit = kScratchBytes;
+  Source source{bytes};
+  int channels = 0;
+  if (!stbi_info_from_callbacks(&kCallbacks, &source, &size.width, &size.height, &channels) || size.width <= 0 ||
+      size.height <= 0) {
+    return {.broken = fmt::format("its header cannot be read ({})", stbi_failure_reason()), .tooLarge = {}};
+  }
+  const auto width = static_cast<uint64_t>(size.width);
+  const auto height = static_cast<uint64_t>(size.height);
+  if (width * height > maxPixels) return {.broken = {}, .tooLarge = tooLarge(width, height, maxPixels)};
+  return {};
+}
+
+/// stb_image calls a PNG above 2^30 bytes no image at all, so its header is read here (W3C PNG, section 11.2.1).
+DecodeProblem checkPngSize(std::span<const std::byte> bytes, uint64_t maxPixels) {
+  constexpr size_t kWidthOffset = 16;
+  constexpr size_t kHeightOffset = 20;
+  if (imageFormat(bytes) != ImageFormat::Png || bytes.size() < kHeightOffset + 4) return {};
+  const auto bigEndian = [&](size_t offset) {
+    uint64_t value = 0;
+    for (size_t i = 0; i < 4; ++i) value = value << 8 | std::to_integer<uint64_t>(bytes[offset + i]);
+    return value;
+  };
+  const uint64_t width = bigEndian(kWidthOffset);
+  const uint64_t height = bigEndian(kHeightOffset);
+  if (width * height <= maxPixels) return {}; // below 2^64: both have 32 bits
+  return {.broken = {}, .tooLarge = tooLarge(width, height, maxPixels)};
+}
+
+DecodeProblem pixelProblem(const Source& source, const void* pixels, const Size& size) {
+  if (!pixels && isTooLargeForStb()) {
+    return {.broken = {},
+            .tooLarge = fmt::format("{} x {} pixels are more than can be decoded", size.width, size.height)};
+  }
+  if (!pixels) return {.broken = fmt::format("it cannot be decoded ({})", stbi_failure_reason()), .tooLarge = {}};
+  return {.broken = source.readPastEnd ? "it is truncated" : "", .tooLarge = {}};
 }
 
 bool startsWith(std::span<const std::byte> bytes, std::string_view magic) {
@@ -129,45 +152,50 @@ bool isRadianceHdr(std::span<const std::byte> bytes) {
   return startsWith(bytes, "#?RADIANCE\n") || startsWith(bytes, "#?RGBE\n");
 }
 
-DecodeProblem decodeImage(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image) {
+DecodeProblem readImageHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image) {
   if (!imageFormat(bytes)) return {.broken = "it is neither PNG nor JPEG", .tooLarge = {}};
-  Header header = readHeader(bytes, maxPixels);
-  if (header.problem.any()) return header.problem;
-  Source depthSource{bytes};
-  const bool is16Bit = stbi_is_16_bit_from_callbacks(&kCallbacks, &depthSource) != 0;
+  if (DecodeProblem problem = checkPngSize(bytes, maxPixels); problem.any()) return problem;
+  Size size;
+  if (DecodeProblem problem = readSize(bytes, maxPixels, size); problem.any()) return problem;
   Source source{bytes};
+  image.width = static_cast<uint32_t>(size.width);
+  image.height = static_cast<uint32_t>(size.height);
+  image.bitsPerChannel = stbi_is_16_bit_from_callbacks(&kCallbacks, &source) ? 16 : 8;
+  return {};
+}
+
+DecodeProblem decodeImage(std::span<const std::byte> bytes, ImageData& image) {
+  const size_t pixelCount = size_t{image.width} * image.height;
+  allocationLimit = allocationLimitFor(pixelCount);
+  Source source{bytes};
+  Size size;
   int channels = 0;
-  const Pixels<void> pixels(
-      is16Bit ? static_cast<void*>(stbi_load_16_from_callbacks(&kCallbacks, &source, &header.width, &header.height,
-                                                               &channels, kChannels))
-              : static_cast<void*>(stbi_load_from_callbacks(&kCallbacks, &source, &header.width, &header.height,
-                                                            &channels, kChannels)));
-  DecodeProblem problem{.broken = brokenReason(source, pixels.get()), .tooLarge = {}};
-  if (problem.any()) return problem;
-  image.width = static_cast<uint32_t>(header.width);
-  image.height = static_cast<uint32_t>(header.height);
-  image.bitsPerChannel = is16Bit ? 16 : 8;
-  const size_t size = size_t{image.width} * image.height * kChannels * image.bitsPerChannel / 8;
+  const Pixels<void> pixels(image.bitsPerChannel == 16
+                                ? static_cast<void*>(stbi_load_16_from_callbacks(&kCallbacks, &source, &size.width,
+                                                                                 &size.height, &channels, kChannels))
+                                : static_cast<void*>(stbi_load_from_callbacks(&kCallbacks, &source, &size.width,
+                                                                              &size.height, &channels, kChannels)));
+  if (DecodeProblem problem = pixelProblem(source, pixels.get(), size); problem.any()) return problem;
   const auto* begin = static_cast<const std::byte*>(pixels.get());
-  image.pixels.assign(begin, begin + size);
+  image.pixels.assign(begin, begin + pixelCount * kChannels * image.bitsPerChannel / 8);
   return {};
 }
 
 DecodeProblem decodeHdr(std::span<const std::byte> bytes, uint64_t maxPixels, HdrImage& image) {
   if (!isRadianceHdr(bytes)) return {.broken = "it is not a Radiance HDR file", .tooLarge = {}};
-  Header header = readHeader(bytes, maxPixels);
-  if (header.problem.any()) return header.problem;
+  Size size;
+  if (DecodeProblem problem = readSize(bytes, maxPixels, size); problem.any()) return problem;
+  image.width = static_cast<uint32_t>(size.width);
+  image.height = static_cast<uint32_t>(size.height);
+  const size_t count = size_t{image.width} * image.height;
+  allocationLimit = allocationLimitFor(count);
   Source source{bytes};
   int channels = 0;
-  const Pixels<float> pixels(
-      stbi_loadf_from_callbacks(&kCallbacks, &source, &header.width, &header.height, &channels, 3));
-  DecodeProblem problem{.broken = brokenReason(source, pixels.get()), .tooLarge = {}};
-  if (problem.any()) return problem;
-  image.width = static_cast<uint32_t>(header.width);
-  image.height = static_cast<uint32_t>(header.height);
-  const size_t count = size_t{image.width} * image.height;
+  const Pixels<float> pixels(stbi_loadf_from_callbacks(&kCallbacks, &source, &size.width, &size.height, &channels, 3));
+  if (DecodeProblem problem = pixelProblem(source, pixels.get(), size); problem.any()) return problem;
+  const float* values = pixels.get();
   image.pixels.resize(count);
-  for (size_t i = 0; i < count; ++i) image.pixels[i] = {pixels.get()[3 * i], pixels.get()[3 * i + 1], pixels.get()[3 * i + 2]};
+  for (size_t i = 0; i < count; ++i) image.pixels[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return {};
 }
 

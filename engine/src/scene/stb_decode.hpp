@@ -27,8 +27,11 @@ struct DecodeProblem {
   [[nodiscard]] bool any() const { return !broken.empty() || !tooLarge.empty(); }
 };
 
-/// Decodes PNG or JPEG to RGBA, 16 bits a channel where the PNG has 16, else 8. Sets all of `image` but its name.
-[[nodiscard]] DecodeProblem decodeImage(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image);
+/// Reads width, height and bits per channel of a PNG or JPEG into `image`: 16 bits where the PNG has 16, else 8.
+[[nodiscard]] DecodeProblem readImageHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image);
+
+/// Decodes the pixels, as RGBA, of an image whose header was read.
+[[nodiscard]] DecodeProblem decodeImage(std::span<const std::byte> bytes, ImageData& image);
 
 struct HdrImage {
   uint32_t width = 0;

@@ -30,9 +30,9 @@ struct TangentSum {
 
 /// How a triangle's uv runs over it.
 struct TriangleFrame {
-  glm::dvec3 normal{0};    ///< unit, geometric
+  glm::dvec3 normal{0};     ///< unit, geometric
   glm::dvec3 uDirection{0}; ///< unit; zero where the triangle has no uv area
-  bool mirrored = false;   ///< the uv triangle runs clockwise, in coordinates with v up
+  bool mirrored = false;    ///< the uv triangle runs clockwise, in coordinates with v up
 };
 
 glm::dvec3 normalizeOrZero(glm::dvec3 v) {
@@ -91,8 +91,14 @@ private:
       const glm::vec2 uv = uvs_[v[k]];
       CornerKey key;
       // + 0 makes -0 and 0 the same bits
-      key.values = {p.x + 0, p.y + 0, p.z + 0, static_cast<float>(normal.x) + 0, static_cast<float>(normal.y) + 0,
-                    static_cast<float>(normal.z) + 0, uv.x + 0, uv.y + 0};
+      key.values = {p.x + 0,
+                    p.y + 0,
+                    p.z + 0,
+                    static_cast<float>(normal.x) + 0,
+                    static_cast<float>(normal.y) + 0,
+                    static_cast<float>(normal.z) + 0,
+                    uv.x + 0,
+                    uv.y + 0};
       key.mirrored = triangle.mirrored;
       const uint32_t group = findGroup(key, !hasUvArea);
       groups[firstCorner + k] = group;
@@ -167,7 +173,7 @@ private:
   Primitive& primitive_;
   const std::vector<glm::vec2>& uvs_;
   std::unordered_map<CornerKey, uint32_t, CornerKeyHash> groupOf_;
-  std::vector<TangentSum> sums_;  ///< of each group
+  std::vector<TangentSum> sums_; ///< of each group
   std::vector<bool> mirrored_;
 };
 

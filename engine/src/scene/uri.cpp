@@ -38,8 +38,7 @@ std::optional<std::string> scheme(std::string_view uri) {
   return result;
 }
 
-LoadedUri loadDataUri(const Document& document, const std::string& uri, const std::string& pointer,
-                      uint64_t maxBytes) {
+LoadedUri loadDataUri(const Document& document, const std::string& uri, const std::string& pointer, uint64_t maxBytes) {
   const size_t comma = uri.find(',');
   if (comma == std::string::npos) document.fail(pointer, "a data URI with a comma before its data");
   const std::string_view header = std::string_view(uri).substr(5, comma - 5);
@@ -68,8 +67,7 @@ void refuseUnsafe(const Document& document, const fs::path& relative, const std:
 }
 
 /// Symbolic links are followed first, so that what counts is the file in the end.
-void refuseOutside(const Document& document, const fs::path& path, const std::string& uri,
-                   const std::string& pointer) {
+void refuseOutside(const Document& document, const fs::path& path, const std::string& uri, const std::string& pointer) {
   std::error_code code;
   const fs::path folder = fs::canonical(document.folder, code);
   const fs::path target = fs::weakly_canonical(path, code);
@@ -101,7 +99,8 @@ std::optional<Bytes> decodeBase64(std::string_view text) {
   constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<int8_t, 256> values{};
   values.fill(-1);
-  for (size_t i = 0; i < kAlphabet.size(); ++i) values[static_cast<unsigned char>(kAlphabet[i])] = static_cast<int8_t>(i);
+  for (size_t i = 0; i < kAlphabet.size(); ++i)
+    values[static_cast<unsigned char>(kAlphabet[i])] = static_cast<int8_t>(i);
 
   for (int padding = 0; padding < 2 && text.ends_with('='); ++padding) text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;

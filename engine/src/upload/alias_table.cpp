@@ -37,11 +37,7 @@ std::vector<gpu::AliasEntry> buildAliasTable(std::span<const double> weights) {
     const auto index = static_cast<uint32_t>(i);
     height[i] = share[i] * static_cast<double>(count);
     table[i] = {1.0f, index, static_cast<float>(share[i])};
-    if (height[i] > 0) (height[i] < 1 ? small : large).push_back(index);
-  }
-  // Zero shares are taken from the back, first: what rounding leaves over at the end must not be one of them.
-  for (size_t i = 0; i < count; ++i) {
-    if (height[i] <= 0) small.push_back(static_cast<uint32_t>(i));
+    (height[i] < 1 ? small : large).push_back(index);
   }
   while (!small.empty() && !large.empty()) {
     const uint32_t low = small.back();
@@ -55,7 +51,9 @@ std::vector<gpu::AliasEntry> buildAliasTable(std::span<const double> weights) {
       small.push_back(high);
     }
   }
-  return table; // bins left over are full to rounding and keep threshold 1
+  // Bins and shares left over are equal in number, so what is left over is full to rounding (never a zero share) and
+  // keeps threshold 1.
+  return table;
 }
 
 } // namespace isophote

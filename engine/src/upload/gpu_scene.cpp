@@ -75,13 +75,14 @@ gpu::SceneView countsOf(const PackedScene& packed) {
 }
 
 // Bytes of all textures; an image read in one color space is stored once.
-uint64_t textureBytes(const Scene& scene, const std::vector<PackedTexture>& textures) {
+uint64_t textureBytes(const Device& device, const Scene& scene, const std::vector<PackedTexture>& textures) {
   std::set<std::pair<uint32_t, bool>> stored;
   uint64_t bytes = 0;
   for (const PackedTexture& texture : textures) {
     if (!stored.insert({texture.image, texture.srgb}).second) continue;
     const ImageData& image = scene.images[texture.image];
-    bytes += static_cast<uint64_t>(image.width) * image.height * gpu::textureFormat(image, texture.srgb).bytesPerPixel;
+    const gpu::TextureFormat format = gpu::textureFormat(image, texture.srgb, device.isCpu());
+    bytes += static_cast<uint64_t>(image.width) * image.height * format.bytesPerPixel;
   }
   return bytes;
 }
@@ -136,7 +137,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : impl_(std::make_u
   const auto uploadStart = Clock::now();
   gpu::SceneView view = countsOf(packed);
   const std::vector<ArrayUpload> arrays = arrayUploads(packed, view);
-  requireMemory(device, arrays, textureBytes(scene, packed.textures));
+  requireMemory(device, arrays, textureBytes(device, scene, packed.textures));
   for (const ArrayUpload& array : arrays) {
     gpu::Buffer buffer(device, array.bytes.size(), gpu::Memory::Device, array.name);
     gpu::writeBuffer(device, buffer, 0, array.bytes);

@@ -1,0 +1,152 @@
+// `isophote render` from outside, on whatever device is present: what it writes, what it returns, how it stops.
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "unit/cli_fixture.hpp"
+
+namespace isophote {
+namespace {
+
+class CliRender : public test::CommandLine {
+protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    if (IsSkipped()) return;
+    if (run({"devices"}).exitCode != 0) GTEST_SKIP() << "no Vulkan device can be used";
+  }
+
+  [[nodiscard]] test::CommandResult render(const std::vector<std::string>& flags) const {
+    std::vector<std::string> arguments = {"render", writeTriangle("triangle.gltf"), "--width", "24", "-o", image()};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    return run(arguments);
+  }
+  /// -v tells when it begins; on a busy machine a minute goes by at most.
+  void waitForRendering(pid_t child) const {
+    for (int i = 0; i < 3000 && output(child).find("features") == std::string::npos; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+  [[nodiscard]] std::string image() const { return path("image.exr").string(); }
+};
+
+TEST_F(CliRender, WritesTheLayersAndAttributesThatScriptsRead) {
+  const auto result = render({"--spp", "16", "--seed", "7", "--max-depth", "3"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Image read = readExr(image());
+  EXPECT_EQ(read.width, 24u);
+  EXPECT_EQ(read.height, 12u); // the camera's aspect ratio is 2
+  for (const char* name : {"R",          "G",          "B",         "A",        "stderr.R",      "stderr.G",
+                           "stderr.B",   "ci95.R",     "ci95.G",    "ci95.B",   "sampleCount.Y", "albedo.R",
+                           "albedo.G",   "albedo.B",   "normal.X",  "normal.Y", "normal.Z",      "depth.Z",
+                           "position.X", "position.Y", "position.Z"}) {
+    EXPECT_NE(read.find(name), nullptr) << name;
+  }
+  for (const char* name :
+       {"version", "scene", "sceneHash", "settings", "device", "features", "error", "bias", "status"}) {
+    EXPECT_TRUE(read.attributes.contains(std::string("isophote.") + name)) << name;
+  }
+  EXPECT_EQ(read.attributes.at("isophote.seed"), "7");
+  EXPECT_EQ(read.attributes.at("isophote.sampleRange"), "0:16");
+  EXPECT_EQ(nlohmann::json::parse(read.attributes.at("isophote.bias")).at("max-depth").at("value"), 3);
+  EXPECT_EQ(nlohmann::json::parse(read.attributes.at("isophote.settings")).at("camera"), "front");
+  EXPECT_GT(nlohmann::json::parse(read.attributes.at("isophote.error")).at("value"), 0);
+  EXPECT_GT(read.renderSeconds, 0);
+  EXPECT_GT(*std::max_element(read.find("R")->values.begin(), read.find("R")->values.end()), 0);
+}
+
+TEST_F(CliRender, WritesStatisticsAndPng) {
+  const auto result = render({"-o", path("image.png").string(), "--stats", path("stats.json").string(), "--spp", "2"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_TRUE(test::readBytes(path("image.png")).starts_with("\x89PNG"));
+  const auto stats = nlohmann::json::parse(test::readBytes(path("stats.json")));
+  EXPECT_EQ(stats.at("schema"), 1);
+  EXPECT_EQ(stats.at("spp"), 2);
+  EXPECT_EQ(stats.at("rays").at("primary"), 24 * 12 * 2);
+  EXPECT_EQ(stats.at("bias"), nlohmann::json::object());
+  for (const char* key : {"scene", "device", "driver", "features", "mrays_per_s", "error", "figure_of_merit"}) {
+    EXPECT_TRUE(stats.contains(key)) << key;
+  }
+  for (const char* key : {"load", "bvh", "upload", "compile", "render", "write"}) {
+    EXPECT_TRUE(stats.at("seconds").at(key).is_number()) << key;
+  }
+  for (const char* key : {"scene_bytes", "bvh_bytes", "queue_bytes", "film_bytes", "bytes_per_path"}) {
+    EXPECT_GT(stats.at("memory").at(key), 0) << key;
+  }
+  for (const char* key : {"triangles", "nodes", "sah_cost", "max_depth"})
+    EXPECT_TRUE(stats.at("bvh").contains(key)) << key;
+  for (const auto& [name, count] : stats.at("status").items()) EXPECT_EQ(count, 0) << name;
+  ASSERT_FALSE(stats.at("kernels").empty());
+  for (const char* key : {"name", "dispatches", "ms", "compile_ms", "spirv_bytes"}) {
+    EXPECT_TRUE(stats.at("kernels").at(0).contains(key)) << key;
+  }
+}
+
+TEST_F(CliRender, StopsAtTheTargetErrorAtTheSameSampleEachTime) {
+  uint32_t samples[2];
+  for (uint32_t& count : samples) {
+    const auto result = render({"--target-error", "30%", "--env-color", "1,1,1", "--quiet"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const Image read = readExr(image());
+    count = static_cast<uint32_t>(read.find("sampleCount.Y")->values.at(0));
+    EXPECT_LE(nlohmann::json::parse(read.attributes.at("isophote.error")).at("interval").at(1), 0.30);
+  }
+  EXPECT_EQ(samples[0], samples[1]);
+  EXPECT_EQ(samples[0] % 8, 0u);
+}
+
+TEST_F(CliRender, ExitsWithEightWhenTheBudgetEndsFirstAndSavesTheImage) {
+  const auto result = render({"--target-error", "0.001%", "--spp", "8"});
+  EXPECT_EQ(result.exitCode, 8) << result.err;
+  EXPECT_EQ(readExr(image()).find("sampleCount.Y")->values.at(0), 8);
+}
+
+// Without a stop this would go on for 4e9 samples a pixel.
+TEST_F(CliRender, StopsAtTheTimeGiven) {
+  const auto result = render({"--time", "0.2"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_GE(readExr(image()).find("sampleCount.Y")->values.at(0), 1);
+}
+
+TEST_F(CliRender, AnInterruptSavesTheImageAndExitsWith130) {
+  const std::string scene = writeTriangle("triangle.gltf");
+  const pid_t child = start({"render", scene, "-o", image(), "--width", "24", "--spp", "4000000000", "-v"});
+  waitForRendering(child);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(child, SIGINT);
+  const auto result = wait(child);
+  EXPECT_EQ(result.exitCode, 130) << result.err;
+  EXPECT_GE(readExr(image()).find("sampleCount.Y")->values.at(0), 1);
+}
+
+// A full disk is simulated in tests/unit/io_atomic_write_test.cpp; drivers' shader caches do not survive it here.
+TEST_F(CliRender, AnOutputThatCannotBeWrittenInTheEndExitsWithSevenAndLeavesNoTrace) {
+  const pid_t child =
+      start({"render", writeTriangle("triangle.gltf"), "-o", image(), "--width", "24", "--time", "1", "-v"});
+  waitForRendering(child);
+  std::filesystem::create_directory(image());
+  const auto result = wait(child);
+  EXPECT_EQ(result.exitCode, 7) << result.err;
+  EXPECT_EQ(fileCount(), 3u); // scene, buffer, and the folder in the way
+}
+
+TEST_F(CliRender, WarnsWhereNothingGivesLight) {
+  std::string dark = test::readBytes(writeTriangle("triangle.gltf"));
+  dark.replace(dark.find(R"("type": "point")"), 15, R"("type": "point", "intensity": 0)");
+  test::writeBytes(path("dark.gltf"), dark);
+  const std::vector<std::string> arguments = {
+      "render", path("dark.gltf").string(), "-o", image(), "--width", "8", "--spp", "1", "--quiet"};
+  const auto result = run(arguments);
+  EXPECT_NE(result.err.find("gives light"), std::string::npos) << result.err;
+}
+
+TEST_F(CliRender, AnUnknownDeviceExitsWithSix) {
+  const auto result = render({"--device", "Voodoo"});
+  EXPECT_EQ(result.exitCode, 6) << result.err;
+  expectOneErrorLine(result);
+}
+
+} // namespace
+} // namespace isophote

@@ -1,0 +1,167 @@
+// Every sample model beside the checkout loads, or is refused for what it requires.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "isophote/error.hpp"
+#include "isophote/gltf.hpp"
+#include "support/paths.hpp"
+
+using namespace isophote;
+using namespace isophote::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> models(const fs::path& folder) {
+  std::vector<fs::path> result;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".gltf" || extension == ".glb") result.push_back(entry.path());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+size_t instancedTriangles(const Scene& scene) {
+  size_t count = 0;
+  for (const Instance& instance : scene.instances) {
+    for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) count += primitive.indices.size() / 3;
+  }
+  return count;
+}
+
+/// The promises of scene.hpp that later stages build on.
+void expectConsistent(const Scene& scene) {
+  for (const Instance& instance : scene.instances) {
+    ASSERT_LT(instance.mesh, scene.meshes.size());
+    EXPECT_NE(glm::determinant(instance.worldFromObject), 0);
+  }
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Primitive& primitive : mesh.primitives) {
+      const size_t count = primitive.positions.size();
+      ASSERT_LT(primitive.material, scene.materials.size());
+      EXPECT_EQ(primitive.indices.size() % 3, 0u);
+      for (const uint32_t index : primitive.indices) ASSERT_LT(index, count);
+      EXPECT_TRUE(primitive.normals.empty() || primitive.normals.size() == count);
+      for (const glm::vec3 normal : primitive.normals) ASSERT_NEAR(glm::length(normal), 1, 1e-5);
+      const bool hasNormalTexture = scene.materials[primitive.material].normalTexture.present();
+      EXPECT_EQ(primitive.tangents.size(), hasNormalTexture ? count : 0);
+      for (const glm::vec4 tangent : primitive.tangents) {
+        ASSERT_NEAR(glm::length(glm::vec3(tangent)), 1, 1e-5);
+        ASSERT_EQ(std::abs(tangent.w), 1);
+      }
+    }
+  }
+  for (const Texture& texture : scene.textures) ASSERT_LT(texture.image, scene.images.size());
+  for (const ImageData& image : scene.images) {
+    EXPECT_EQ(image.pixels.size(), size_t{image.width} * image.height * image.bitsPerChannel / 2);
+  }
+}
+
+/// glTF text, or the JSON chunk of a GLB: enough to look for an extension's name.
+bool requiresCompression(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.find("draco") != std::string::npos || name.find("meshopt") != std::string::npos ||
+         name == "carbon-sphere.glb";
+}
+
+} // namespace
+
+TEST(GltfSamples, EveryModelLoadsOrIsRefusedForItsCompression) {
+  const auto shared = sharedFolder();
+  if (!shared) GTEST_SKIP() << "the sample models beside the checkout are absent";
+  size_t loaded = 0;
+  for (const fs::path& file : models(*shared / "gltf")) {
+    SCOPED_TRACE(file.string());
+    if (requiresCompression(file)) {
+      EXPECT_THROW((void)loadGltf(file), UnsupportedError);
+      continue;
+    }
+    const Scene scene = loadGltf(file);
+    expectConsistent(scene);
+    EXPECT_GT(instancedTriangles(scene), 0u);
+    ++loaded;
+  }
+  EXPECT_GE(loaded, 30u);
+}
+
+TEST(GltfSamples, EveryGeneratedModelLoads) {
+  const auto shared = sharedFolder();
+  if (!shared) GTEST_SKIP() << "the sample models beside the checkout are absent";
+  // Their textures lie in a folder beside their own.
+  const LoadOptions options{.allowExternal = true};
+  size_t loaded = 0;
+  for (const fs::path& file : models(*shared / "gltf-generated")) {
+    SCOPED_TRACE(file.string());
+    const bool mustFail = file.stem() == "Compatibility_04" || file.stem() == "Compatibility_05";
+    if (mustFail) {
+      EXPECT_THROW((void)loadGltf(file, options), UnsupportedError);
+      continue;
+    }
+    expectConsistent(loadGltf(file, options));
+    ++loaded;
+  }
+  EXPECT_EQ(loaded, 34u);
+}
+
+// Triangle counts of the models' index, node instances and GPU instances included.
+TEST(GltfSamples, TriangleCountsAreThoseOfTheIndex) {
+  const auto shared = sharedFolder();
+  if (!shared) GTEST_SKIP() << "the sample models beside the checkout are absent";
+  const std::vector<std::pair<const char*, size_t>> expected = {
+      {"FlightHelmet/FlightHelmet.gltf", 94722},
+      {"MaterialGrid/material_grid.gltf", 305536},
+      {"PrimitiveModeNormalsTest/PrimitiveModeNormalsTest.glb", 2562},
+      {"SheenCloth/SheenCloth.glb", 115200},
+      {"SimpleInstancing/simple-instancing.glb", 125 * 12},
+      {"CornellBox-Bevy/CornellBox.glb", 36},
+      {"Fox/Fox.glb", 576}};
+  for (const auto& [name, count] : expected) {
+    EXPECT_EQ(instancedTriangles(loadGltf(*shared / "gltf" / name)), count) << name;
+  }
+}
+
+TEST(GltfSamples, EveryFormOfAModelHasTheSameBounds) {
+  const auto shared = sharedFolder();
+  if (!shared) GTEST_SKIP() << "the sample models beside the checkout are absent";
+  const fs::path folder = *shared / "gltf";
+  // Quantized positions: 14 bits over the model's size.
+  const std::vector<std::pair<std::vector<const char*>, double>> forms = {
+      {{"CesiumMan/CesiumMan.glb", "CesiumMan/CesiumMan-embedded.gltf", "CesiumMan/CesiumMan-quantized.glb"}, 1e-4},
+      {{"MorphStressTest/morph-stress-test.glb", "MorphStressTest/morph-stress-test-embedded.gltf",
+        "MorphStressTest/sep_morph-stress-test.gltf", "MorphStressTest/morph-stress-test-quantized.glb"},
+       3e-4},
+      {{"BoxTextured/BoxTextured-glTF/BoxTextured.gltf", "BoxTextured/BoxTextured-glTF-Binary/BoxTextured.glb",
+        "BoxTextured/BoxTextured-glTF-Embedded/BoxTextured.gltf"},
+       0}};
+  for (const auto& [names, tolerance] : forms) {
+    const Bounds reference = worldBounds(loadGltf(folder / names[0]));
+    for (const char* name : names) {
+      const Bounds bounds = worldBounds(loadGltf(folder / name));
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(bounds.lower[i], reference.lower[i], tolerance) << name;
+        EXPECT_NEAR(bounds.upper[i], reference.upper[i], tolerance) << name;
+      }
+    }
+  }
+}
+
+// AnimatedMorphCube and the skinned CesiumMan are placed in the pose that their nodes give: standing on the ground.
+TEST(GltfSamples, TheSkinnedManStandsUprightOnTheGround) {
+  const auto shared = sharedFolder();
+  if (!shared) GTEST_SKIP() << "the sample models beside the checkout are absent";
+  const Bounds bounds = worldBounds(loadGltf(*shared / "gltf/CesiumMan/CesiumMan.glb"));
+  EXPECT_NEAR(bounds.lower.y, 0, 1e-3);
+  EXPECT_NEAR(bounds.upper.y, 1.5065, 1e-3);
+}
+
+TEST(GltfSamples, LightsAndCamerasAreFound) {
+  const auto shared = sharedFolder();
+  if (!shared) GTEST_SKIP() << "the sample models beside the checkout are absent";
+  const Scene scene = loadGltf(*shared / "gltf/PunctualLights/Lights.glb");
+  EXPECT_EQ(scene.lights.size(), 4u);
+  EXPECT_EQ(scene.cameras.size(), 1u);
+}
