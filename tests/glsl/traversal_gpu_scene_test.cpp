@@ -13,7 +13,8 @@ namespace {
 
 std::vector<std::string> bufferNames(const Scene& scene) {
   std::vector<std::string> names;
-  for (const BufferUse& use : GpuScene(test::gpuDevice(), scene).statistics().buffers) names.push_back(use.name);
+  const GpuScene gpuScene(test::gpuDevice(), scene);
+  for (const BufferUse& use : gpuScene.statistics().buffers) names.push_back(use.name);
   std::sort(names.begin(), names.end());
   return names;
 }
