@@ -98,7 +98,7 @@ TEST(RenderFilm, StandardErrorsTellTheSpreadOfPixelMeans) {
                                 {boxFurnace(glm::vec3(1), glm::vec3(0.5f)), boxFurnaceCamera(), 2}};
   for (const auto sampler : {SamplerKind::Independent, SamplerKind::Sobol}) {
     for (const Case& c : cases) {
-      const Image image = renderImage(c.scene, c.camera, 64, 64, 512,
+      const Image image = renderImage(c.scene, c.camera, 64, 64, 128,
                                       {.estimator = {.sampler = sampler, .filter = PixelFilter::Box, .seed = 77}});
       const auto means = plane(image, "G"), errors = plane(image, "stderr.G"), half = plane(image, "ci95.G");
       double outside = 0;
