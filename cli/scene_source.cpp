@@ -96,9 +96,16 @@ LoadedScene loadScene(const std::string& file, const EnvironmentOptions& environ
 }
 
 bool hasLight(const Scene& scene) {
+  const auto shines = [](glm::vec3 color) { return color != glm::vec3(0); };
+  const auto& lights = scene.lights;
+  if (std::any_of(lights.begin(), lights.end(), [&](const PunctualLight& light) { return shines(light.intensity); }))
+    return true;
+  if (scene.environment && scene.environment->intensity > 0) {
+    const auto& pixels = scene.environment->pixels;
+    if (std::any_of(pixels.begin(), pixels.end(), shines)) return true;
+  }
   const FeatureSet features = sceneFeatures(scene);
-  return features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasPunctualLights) ||
-         features.has(Feature::kHasEnvironment) || features.has(Feature::kHasUnlit);
+  return features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasUnlit);
 }
 
 View chooseView(const Scene& scene, const std::optional<std::string>& name, std::optional<uint32_t> width,

@@ -41,8 +41,9 @@ PixelMean pixelMean(const ReplicateRef sums, const uint pixel, const float value
     const uint index = pixel * kReplicateCount + r;
     const float count = float(sums.items[index].count);
     if (count == 0.0) continue;
-    const vec3 mean = vec3(float(sums.items[index].red), float(sums.items[index].green), float(sums.items[index].blue)) *
-                      (valueScale / count);
+    const vec3 mean =
+        vec3(float(sums.items[index].red), float(sums.items[index].green), float(sums.items[index].blue)) *
+        (valueScale / count);
     const float share = count / total;
     squares += share * share;
     result.varianceOfMean += share * share * (mean - result.mean) * (mean - result.mean);

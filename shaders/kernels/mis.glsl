@@ -5,8 +5,8 @@
 
 #include "shared/constants.glsl"
 
-// Weight of a sample taken with density `pdf` where the other technique has density `otherPdf` (same measure, both >= 0,
-// pdf > 0). The quotient form neither overflows nor divides zero by zero.
+// Weight of a sample taken with density `pdf` where the other technique has density `otherPdf` (same measure, both >=
+// 0, pdf > 0). The quotient form neither overflows nor divides zero by zero.
 float misWeight(const float pdf, const float otherPdf) {
   const float ratio = otherPdf / pdf;
   return 1.0 / (1.0 + (kMisHeuristic == 1u ? ratio * ratio : ratio));

@@ -1,4 +1,5 @@
-// Turns queue counts into the next stages' dispatch sizes. One invocation; the host never reads a count between kernels.
+// Turns queue counts into the next stages' dispatch sizes. One invocation; the host never reads a count between
+// kernels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -25,10 +25,12 @@ void main() {
   const uint slot = queueSlots(kQueueFree).slots[wave.state.counts[kQueueFree] + item];
 
   const uint offset = wave.state.regeneratePixel + item;
-  const uint sampleIndex = render.view.firstSample + wave.state.regenerateSample + offset / render.view.paddedPixelCount;
+  const uint sampleIndex =
+      render.view.firstSample + wave.state.regenerateSample + offset / render.view.paddedPixelCount;
   const uvec2 cropPixel = tilePixel(render, offset % render.view.paddedPixelCount);
   if (any(greaterThanEqual(cropPixel, render.view.cropSize))) {
-    // Padding of a tile at the border. The freed slot waits in the finished queue, because the free queue is being read.
+    // Padding of a tile at the border. The freed slot waits in the finished queue, because the free queue is being
+    // read.
     PathRef(pc.paths).items[slot].sampleIndex = kNoSample;
     pushSlot(kQueueFinished, slot);
     return;

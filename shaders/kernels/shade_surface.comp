@@ -19,17 +19,18 @@
 const uint kFirstVertexPair = 2u;
 const uint kVertexPairs = 4u;
 
-// Roulette starts at this depth, and never lets a path live with more than this probability: a lossless closed scene ends.
-// At reflectance rho the weights of long paths have finite variance only where rho^2 is below this limit, so it must be
-// close to 1: with 0.95 a closed room of reflectance 0.98 would never converge.
+// Roulette starts at this depth, and never lets a path live with more than this probability: a lossless closed scene
+// ends. At reflectance rho the weights of long paths have finite variance only where rho^2 is below this limit, so it
+// must be close to 1: with 0.95 a closed room of reflectance 0.98 would never converge.
 const uint kRouletteDepth = 3u;
 const float kRouletteMaxSurvival = 0.999;
 
 const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
 
 // A light's contribution at the surface, put up for the visibility test.
-void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material, const Frame frame,
-                       const vec3 woLocal, const SampleKey key, const uint pair, const uint slot, const vec3 beta) {
+void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
+                       const Frame frame, const vec3 woLocal, const SampleKey key, const uint pair, const uint slot,
+                       const vec3 beta) {
   const LightSample light = sampleLight(scene, surface.p, sampleBits2d(key, pair + 1u), sample2d(key, pair));
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
@@ -40,14 +41,14 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
 
-  // Direction and length are taken between the offset points: at grazing angles the surface point's own would pass below
-  // the light.
+  // Direction and length are taken between the offset points: at grazing angles the surface point's own would pass
+  // below the light.
   const vec3 origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, light.wi);
   vec3 direction = light.wi;
   float tMax = kRayInfinity;
   if (!light.atInfinity) {
-    const vec3 target = light.delta ? light.point
-                                    : offsetRayOrigin(light.point, light.pointError, light.ngLight, -light.wi);
+    const vec3 target =
+        light.delta ? light.point : offsetRayOrigin(light.point, light.pointError, light.ngLight, -light.wi);
     direction = target - origin; // not normalised: t runs from 0 to 1
     tMax = 1.0;
   }
@@ -86,7 +87,8 @@ vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState r
   if (all(equal(Le, vec3(0.0)))) return vec3(0.0);
   float pdfLight = 0.0;
   if (path.pdfSolidAngle > 0.0) {
-    pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)), distance(surface.p, ray.origin));
+    pdfLight =
+        emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)), distance(surface.p, ray.origin));
   }
   return Le * emissionWeight(path.pdfSolidAngle, pdfLight);
 }

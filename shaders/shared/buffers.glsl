@@ -12,7 +12,7 @@
 #include "shared/material_types.h"
 #include "shared/scene_view.h"
 
-#define ISOPHOTE_BUFFER(Name, Type)                                                                                     \
+#define ISOPHOTE_BUFFER(Name, Type)                                                                                    \
   layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Name { Type items[]; }
 
 // The scene travels through functions as this 8-byte pointer: `const SceneRef scene`, read as scene.view.member.

@@ -14,14 +14,14 @@ struct CameraRecord {
   vec3 position; // relative to the scene's world origin
   float znear;   // along forward; geometry nearer is not seen
   vec3 right;
-  float zfar;    // 0: unlimited
+  float zfar; // 0: unlimited
   vec3 up;
   uint orthographic;
-  vec3 forward;  // unit
+  vec3 forward; // unit
 };
 
-// The pixel filter as inverse cumulative distribution per axis: entry i is the offset from the pixel's center, in pixels,
-// at probability i / (kFilterTableSize - 1); linear in between.
+// The pixel filter as inverse cumulative distribution per axis: entry i is the offset from the pixel's center, in
+// pixels, at probability i / (kFilterTableSize - 1); linear in between.
 ISOPHOTE_CONST uint kFilterTableSize = 1025u;
 
 ISOPHOTE_SHARED_END

@@ -28,7 +28,7 @@ struct AovSum {
   Int64 depth;       // along the view axis
   Int64 position[3]; // relative to the scene's world origin
   uint count;
-  uint unused;       // keeps 64-bit members aligned in arrays
+  uint unused; // keeps 64-bit members aligned in arrays
 };
 ISOPHOTE_CONST uint kAovSampleCount = 64u;
 
@@ -49,9 +49,9 @@ struct FilmArgs {
   Address replicates; // ReplicateSum[pixelCount * kReplicateCount], pixel-major
   Address target;     // ErrorPartial[kErrorInvocations] or packed RGBA8
   uint pixelCount;
-  float valueScale;   // from fixed point to radiance
+  float valueScale;    // from fixed point to radiance
   float epsilonSquare; // e^2 of the error metric
-  float exposure;     // factor
+  float exposure;      // factor
   uint toneMap;
 };
 

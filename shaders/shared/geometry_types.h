@@ -34,7 +34,7 @@ struct BvhTriangle {
   vec3 v0;
   uint primitiveIndex; // triangle number within its geometry
   vec3 v1;
-  uint geometry;       // index into the Geometry array
+  uint geometry; // index into the Geometry array
   vec3 v2;
   uint flags;
 };
@@ -46,19 +46,19 @@ struct InstanceRecord {
   uint rootNode;
   uint firstEmitter; // light index of this instance's first emissive triangle, or kInvalidIndex
   uint mesh;
-  uint flags;        // kInstanceMirrored: the map turns winding over
+  uint flags; // kInstanceMirrored: the map turns winding over
 };
 ISOPHOTE_CONST uint kInstanceMirrored = 1u;
 
 // One primitive of a mesh. Offsets count elements of the attribute arrays; kInvalidIndex: attribute absent.
 struct Geometry {
-  uint firstIndex;      // into indices: 3 per triangle, relative to this geometry's attributes
+  uint firstIndex; // into indices: 3 per triangle, relative to this geometry's attributes
   uint firstNormal;
   uint firstTangent;
   uint firstColor;
   uint firstUv[4];
   uint material;
-  uint firstEmissive;   // emissive triangles of the mesh before this geometry, or kInvalidIndex
+  uint firstEmissive; // emissive triangles of the mesh before this geometry, or kInvalidIndex
 };
 
 ISOPHOTE_SHARED_END

@@ -1,4 +1,5 @@
-// Lights as the device reads them. Light indices run: emissive triangles of every instance, punctual lights, environment.
+// Lights as the device reads them. Light indices run: emissive triangles of every instance, punctual lights,
+// environment.
 #ifndef ISOPHOTE_SHARED_LIGHT_TYPES_H
 #define ISOPHOTE_SHARED_LIGHT_TYPES_H
 
@@ -23,7 +24,7 @@ ISOPHOTE_CONST uint kLightSpot = 1u;
 ISOPHOTE_CONST uint kLightDirectional = 2u;
 
 struct PunctualLightRecord {
-  vec3 position;  // relative to SceneView.worldOrigin
+  vec3 position; // relative to SceneView.worldOrigin
   uint kind;
   vec3 direction; // unit, the way the light travels
   float range;    // 0: unlimited
@@ -35,12 +36,12 @@ struct PunctualLightRecord {
 // Piecewise-constant density over an equirectangular map of width x height texels, as cumulative sums in [0, 1]:
 // marginal over rows has height + 1 values, conditional over columns height * (width + 1).
 struct EnvironmentRecord {
-  Address pixels;      // vec3 radiance, row 0 up (+y), intensity applied
+  Address pixels; // vec3 radiance, row 0 up (+y), intensity applied
   Address marginal;
   Address conditional;
   uint width;
   uint height;
-  float cosRotation;   // rotation about +y from map to world
+  float cosRotation; // rotation about +y from map to world
   float sinRotation;
 };
 

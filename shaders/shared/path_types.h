@@ -25,10 +25,10 @@ struct PathState {
   vec3 beta;           // throughput, 1/pdf included
   float pdfSolidAngle; // of the last BSDF sample; 0: camera ray or delta bounce, which no light sample can match
   vec3 radiance;
-  uint depth;          // scattering events so far
-  uint pixel;          // x | y << 16 in the full image
+  uint depth; // scattering events so far
+  uint pixel; // x | y << 16 in the full image
   uint sampleIndex;
-  uint hit;            // 1: the camera ray met a surface
+  uint hit; // 1: the camera ray met a surface
 };
 
 // PathState.sampleIndex of a slot that holds no sample: padding of a border tile.
@@ -81,15 +81,15 @@ struct DispatchSize {
 
 // The wavefront's only shared mutable state. Counts are written by queue pushes (atomic) and by `prepare` (alone).
 struct WaveState {
-  Uint64 nextWork;        // work items handed out; item w is sample w / paddedPixelCount of pixel w % paddedPixelCount
+  Uint64 nextWork; // work items handed out; item w is sample w / paddedPixelCount of pixel w % paddedPixelCount
   Uint64 primaryRays;
   Uint64 bounceRays;
   Uint64 shadowRays;
   DispatchSize dispatches[6]; // kStageCount
-  uint counts[6];         // kQueueCount
-  uint status[6];         // kStatusCount
-  uint regenerateCount;   // of this wave
-  uint regenerateSample;  // sample index, relative to firstSample, and padded pixel of its first work item
+  uint counts[6];             // kQueueCount
+  uint status[6];             // kStatusCount
+  uint regenerateCount;       // of this wave
+  uint regenerateSample;      // sample index, relative to firstSample, and padded pixel of its first work item
   uint regeneratePixel;
   uint unused;
 };
@@ -104,7 +104,7 @@ struct RenderView {
   uvec2 imageSize;
   uvec2 cropOrigin;
   uvec2 cropSize;
-  uvec2 tileSize;      // powers of two; work walks the crop tile by tile
+  uvec2 tileSize; // powers of two; work walks the crop tile by tile
   uint tileColumns;
   uint paddedPixelCount;
   uint firstSample;
@@ -116,11 +116,11 @@ struct RenderView {
 
 // The push constant of every wavefront kernel.
 struct KernelArgs {
-  Address scene;   // SceneView
-  Address render;  // RenderView
-  Address wave;    // WaveState
-  Address queues;  // uint[kQueueCount][capacity]
-  Address rays;    // RayState[capacity], as the next three indexed by slot
+  Address scene;  // SceneView
+  Address render; // RenderView
+  Address wave;   // WaveState
+  Address queues; // uint[kQueueCount][capacity]
+  Address rays;   // RayState[capacity], as the next three indexed by slot
   Address hits;
   Address paths;
   Address shadows;

@@ -8,27 +8,27 @@
 ISOPHOTE_SHARED_BEGIN
 
 struct SceneView {
-  Address nodes;       // BvhNode: top level first, root at 0
-  Address triangles;   // BvhTriangle
-  Address instances;   // InstanceRecord, in top-level leaf order
-  Address geometries;  // Geometry
-  Address indices;     // uint
-  Address normals;     // vec3
-  Address tangents;    // vec4
-  Address colors;      // vec4
-  Address uvs;         // vec2
-  Address materials;   // MaterialRecord
-  Address textureSlots; // TextureSlot
-  Address lightAlias;  // AliasEntry, one per light
+  Address nodes;             // BvhNode: top level first, root at 0
+  Address triangles;         // BvhTriangle
+  Address instances;         // InstanceRecord, in top-level leaf order
+  Address geometries;        // Geometry
+  Address indices;           // uint
+  Address normals;           // vec3
+  Address tangents;          // vec4
+  Address colors;            // vec4
+  Address uvs;               // vec2
+  Address materials;         // MaterialRecord
+  Address textureSlots;      // TextureSlot
+  Address lightAlias;        // AliasEntry, one per light
   Address emissiveTriangles; // EmissiveTriangle
   Address punctualLights;    // PunctualLightRecord
-  Address ggxAlbedo;   // vec2 table of bsdf/ggx_albedo.glsl
+  Address ggxAlbedo;         // vec2 table of bsdf/ggx_albedo.glsl
   EnvironmentRecord environment;
   uint lightCount;
   uint emissiveTriangleCount;
   uint punctualLightCount;
   uint instanceCount;
-  float emitterScale;  // PackedScene::emitterScale: the Film's fixed point follows it
+  float emitterScale; // PackedScene::emitterScale: the Film's fixed point follows it
 };
 
 ISOPHOTE_SHARED_END

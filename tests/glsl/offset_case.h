@@ -34,7 +34,7 @@ struct LeaveResult {
   vec3 p; // world
   vec3 pError;
   vec3 originObject; // of the ray that leaves on the side of `direction`
-  uint found;  // the triangle is met again
+  uint found;        // the triangle is met again
 };
 
 ISOPHOTE_SHARED_END

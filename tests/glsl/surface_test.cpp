@@ -207,3 +207,18 @@ TEST(Surface, NeedlesOfAnySizeHaveTheirNormalAndArea) {
     EXPECT_NEAR(results[0].area, 0.5 * glm::length(cross), 1e-6 * 0.5 * glm::length(cross)) << size;
   }
 }
+
+TEST(Surface, ObtuseSliversHaveTheirNormalAndArea) {
+  // Angles of 1e-4 at both ends of the longest edge; coordinates within a factor of 2, so that edges are exact floats.
+  std::mt19937 random(6);
+  for (uint32_t i = 0; i < 20; ++i) {
+    const glm::dmat3 turn = glm::dmat3(test::randomPlacement(random, 0));
+    std::vector<glm::vec3> positions;
+    for (const glm::dvec3& v : {glm::dvec3(0), glm::dvec3(1, 1e-4, 0), glm::dvec3(2, 0, 0)})
+      positions.push_back(glm::vec3(glm::dvec3(30) + turn * v));
+    const glm::dvec3 cross = glm::cross(glm::dvec3(positions[1]) - glm::dvec3(positions[0]),
+                                        glm::dvec3(positions[2]) - glm::dvec3(positions[0]));
+    const auto results = surfaces(test::sceneOf({test::meshOf(positions)}), {{0, 0, {0.3f, 0.3f}, {0, 0, 1}}});
+    ASSERT_LT(glm::length(glm::dvec3(results[0].ng) - glm::normalize(cross)), 1e-6);
+  }
+}

@@ -24,8 +24,8 @@ public:
 
   Stage(const Scene& scene, uint32_t capacity, const FilmOptions& filmOptions = {.width = 4, .height = 4})
       : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions), pool(gpuDevice(), capacity, true),
-        kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)),
-        rays(capacity), hits(capacity), paths(capacity), shadows(capacity) {
+        kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)), rays(capacity),
+        hits(capacity), paths(capacity), shadows(capacity) {
     for (auto& queue : queues) queue.resize(capacity);
     view.replicates = film.impl().replicates.address();
     view.aovs = film.impl().aovs.address();
@@ -96,8 +96,10 @@ private:
   }
 
   template <class T> static void move(bool up, const gpu::Buffer& buffer, uint64_t offset, std::span<T> values) {
-    if (up) gpu::writeBuffer(gpuDevice(), buffer, offset, std::as_bytes(values));
-    else gpu::readBuffer(gpuDevice(), buffer, offset, std::as_writable_bytes(values));
+    if (up)
+      gpu::writeBuffer(gpuDevice(), buffer, offset, std::as_bytes(values));
+    else
+      gpu::readBuffer(gpuDevice(), buffer, offset, std::as_writable_bytes(values));
   }
 
   void transfer(bool up) {

@@ -92,7 +92,7 @@ class Display:
         subprocess.run(["xdotool", *(str(a) for a in arguments)], env=self.environment(), check=True,
                        stdout=subprocess.DEVNULL)
 
-    def window(self, timeout=60):
+    def window(self, timeout=120):
         """The viewer's window, once it is there."""
         until = time.monotonic() + timeout
         while time.monotonic() < until:
@@ -111,7 +111,7 @@ class Headless(unittest.TestCase):
             environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
             done = subprocess.run([VIEWER, SCENE, "--width", "96", "--height", "96", "--headless-frames", "20", "--screenshot",
                                    picture, "--validation", "--device", "cpu"], env=environment, capture_output=True, text=True,
-                                  timeout=120, check=False)
+                                  timeout=240, check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             width, height, rows = read_png(picture)
             self.assertEqual((width, height), (96, 96))
@@ -122,7 +122,7 @@ class Headless(unittest.TestCase):
 
     def test_refuses_what_it_cannot_do_with_the_right_exit_code(self):
         def code(*arguments):
-            return subprocess.run([VIEWER, *arguments], capture_output=True, timeout=60, check=False).returncode
+            return subprocess.run([VIEWER, *arguments], capture_output=True, timeout=120, check=False).returncode
         self.assertEqual(code(), 2)
         self.assertEqual(code(SCENE, "--scale", "0"), 2)
         self.assertEqual(code("missing.glb"), 3)
@@ -143,7 +143,7 @@ class InAWindow(unittest.TestCase):
                                 stderr=subprocess.PIPE, text=True)
 
     def finish(self, process):
-        output, errors = process.communicate(timeout=120)
+        output, errors = process.communicate(timeout=240)
         self.assertEqual((process.returncode, errors), (0, ""), output)
 
     def test_a_fixed_number_of_frames_shows_the_box_and_the_panel(self):
@@ -200,10 +200,10 @@ class InAWindow(unittest.TestCase):
             file.unlink(missing_ok=True)
         time.sleep(0.5)  # for events on their way
         display.pointer("key", "s")
-        until = time.monotonic() + 60
+        until = time.monotonic() + 120
         while not (exr.exists() and png.exists()):
             self.assertIsNone(viewer.poll(), "the viewer ended early")
-            self.assertLess(time.monotonic(), until, "nothing saved within a minute")
+            self.assertLess(time.monotonic(), until, "nothing saved within two minutes")
             time.sleep(0.1)
         self.assertEqual(exr.read_bytes()[:4], b"\x76\x2f\x31\x01")
         return read_png(png)[2]

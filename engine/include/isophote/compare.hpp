@@ -13,15 +13,15 @@ namespace isophote {
 /// The verdict of a statistical comparison; present where both images carry `stderr.{R,G,B}`.
 struct Verdict {
   bool same = true;
-  double p = 1;                  ///< family-wise p-value over all pixel-channels and 4x4 block means
-  double passingFraction = 1;    ///< share of pixel-channels within the critical z
+  double p = 1;               ///< family-wise, over all pixel-channels and blocks of 4x4, 16x16, … pixels
+  double passingFraction = 1; ///< share of pixel-channels within the critical z
   uint64_t failingBlocks = 0;
 };
 
 struct Comparison {
   double relMse = 0; ///< mean over pixels and channels of (a - b)^2 / (b^2 + e^2), e = 1% of b's mean luminance
   double rmse = 0;
-  double flip = 0;   ///< mean LDR-FLIP (Andersson et al. 2020) after the Neutral tone map
+  double flip = 0; ///< mean LDR-FLIP (Andersson et al. 2020) after the Neutral tone map
   std::optional<Verdict> verdict;
   std::vector<float> flipMap; ///< per pixel, row 0 at the top
 };

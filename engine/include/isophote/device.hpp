@@ -15,16 +15,16 @@ namespace isophote {
 struct DeviceInfo {
   uint32_t index = 0;
   std::string name;
-  std::string driver;          ///< driver name and version text
-  std::string kind;            ///< "discrete", "integrated", "cpu", "virtual", "other"
+  std::string driver; ///< driver name and version text
+  std::string kind;   ///< "discrete", "integrated", "cpu", "virtual", "other"
   uint32_t subgroupSize = 0;
-  uint64_t memoryBytes = 0;    ///< largest device-local heap
+  uint64_t memoryBytes = 0; ///< largest device-local heap
   bool rayQuery = false;
-  std::string rejection;       ///< empty: usable; else every missing item, comma separated
+  std::string rejection; ///< empty: usable; else every missing item, comma separated
 };
 
 struct InstanceOptions {
-  bool validation = false;     ///< core and synchronization validation; missing layers throw DeviceError
+  bool validation = false;             ///< core and synchronization validation; missing layers throw DeviceError
   std::vector<const char*> extensions; ///< a window system's instance extensions
 };
 
@@ -49,8 +49,8 @@ private:
 };
 
 struct DeviceOptions {
-  std::string selector;        ///< name part, index, or "cpu"; empty: the fastest kind present
-  bool present = false;        ///< enable VK_KHR_swapchain
+  std::string selector; ///< name part, index, or "cpu"; empty: the fastest kind present
+  bool present = false; ///< enable VK_KHR_swapchain
 };
 
 /// One VkDevice with one queue that computes and transfers (and presents where asked). Borrows the VulkanInstance.
@@ -68,8 +68,8 @@ public:
   [[nodiscard]] uint32_t queueFamily() const;
   [[nodiscard]] VkInstance instance() const;
   [[nodiscard]] const DeviceInfo& info() const;
-  [[nodiscard]] bool isCpu() const;           ///< lavapipe and its kind
-  [[nodiscard]] double timestampNanoseconds() const; ///< length of one timestamp tick
+  [[nodiscard]] bool isCpu() const;                    ///< lavapipe and its kind
+  [[nodiscard]] double timestampNanoseconds() const;   ///< length of one timestamp tick
   [[nodiscard]] VkPipelineCache pipelineCache() const; ///< kept on disk per device and driver, saved at destruction
   /// Bytes now held by Buffers and textures of this device.
   [[nodiscard]] uint64_t allocatedBytes() const;

@@ -20,10 +20,10 @@ struct ErrorEstimate {
 };
 
 struct FilmOptions {
-  uint32_t width = 0;  ///< 1 to 65535
+  uint32_t width = 0; ///< 1 to 65535
   uint32_t height = 0;
-  PixelRect crop;      ///< empty: the full image
-  bool aovs = true;    ///< albedo, normal, depth and position of the first hit
+  PixelRect crop;   ///< empty: the full image
+  bool aovs = true; ///< albedo, normal, depth and position of the first hit
 };
 
 /// Per pixel and independent replicate, 64-bit fixed-point sums that are exact and associative. Borrows the Device.
@@ -46,8 +46,8 @@ public:
   /// Estimated on the device from the replicates, cheap enough to call every second.
   [[nodiscard]] ErrorEstimate error() const;
 
-  /// Writes tone-mapped RGBA8 (packed, R lowest) of the crop, row 0 at the top, to the buffer at `address`: what a viewer shows.
-  /// Recorded and waited for.
+  /// Writes tone-mapped RGBA8 (packed, R lowest) of the crop, row 0 at the top, to the buffer at `address`: what a
+  /// viewer shows. Recorded and waited for.
   void display(uint64_t address, float exposureEv, ToneMap operation) const;
 
   struct Impl;

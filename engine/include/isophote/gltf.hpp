@@ -10,10 +10,10 @@
 namespace isophote {
 
 struct LoadOptions {
-  std::optional<uint32_t> scene;         ///< index; absent: the asset's default, else 0
-  bool allowExternal = false;            ///< let URIs leave the asset's folder
-  uint64_t maxImagePixels = 1ull << 28;  ///< per image, checked before decoding
-  uint64_t maxBufferBytes = 8ull << 30;  ///< all buffers together
+  std::optional<uint32_t> scene;        ///< index; absent: the asset's default, else 0
+  bool allowExternal = false;           ///< let URIs leave the asset's folder
+  uint64_t maxImagePixels = 1ull << 28; ///< per image, checked before decoding
+  uint64_t maxBufferBytes = 8ull << 30; ///< all buffers together
   uint32_t maxNodes = 4'000'000;
 };
 

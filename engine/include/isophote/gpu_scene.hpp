@@ -19,18 +19,18 @@ struct BufferUse {
 
 /// What building the scene cost, for stats.
 struct SceneStatistics {
-  uint64_t triangles = 0;          ///< stored, each once
+  uint64_t triangles = 0; ///< stored, each once
   uint64_t instancedTriangles = 0;
   uint64_t bvhNodes = 0;
   double sahCost = 0;
   uint32_t bvhMaxDepth = 0;
   double bvhSeconds = 0;
-  double packSeconds = 0;          ///< without the BVH
+  double packSeconds = 0; ///< without the BVH
   double uploadSeconds = 0;
-  uint64_t sceneBytes = 0;         ///< everything but the BVH
+  uint64_t sceneBytes = 0; ///< everything but the BVH
   uint64_t bvhBytes = 0;
   uint64_t textureBytes = 0;
-  std::vector<BufferUse> buffers;  ///< those that exist
+  std::vector<BufferUse> buffers; ///< those that exist
 };
 
 /// Buffers and textures of one scene, immutable. Keeps nothing of the Scene it was made from. Borrows the Device.

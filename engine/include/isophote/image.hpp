@@ -42,7 +42,8 @@ enum class ToneMap : uint32_t { Neutral, Agx, Aces, Srgb, Linear };
 /// Scene-linear Rec.709 to display-referred sRGB in [0, 1]. `color` is already exposed.
 [[nodiscard]] glm::vec3 toneMap(glm::vec3 color, ToneMap operation);
 
-/// Writes R, G, B (and A where present) as 8-bit sRGB, tone-mapped after exposure by 2^exposureEv. Atomic like writeExr.
+/// Writes R, G, B (and A where present) as 8-bit sRGB, tone-mapped after exposure by 2^exposureEv. Atomic like
+/// writeExr.
 /// @throws OutputError
 void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation);
 

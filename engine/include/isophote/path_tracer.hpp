@@ -17,10 +17,10 @@ namespace isophote {
 struct StatusCounters {
   uint64_t queueOverflow = 0;
   uint64_t stackOverflow = 0;
-  uint64_t nonFinite = 0;     ///< samples dropped because a value was NaN or infinite
-  uint64_t negative = 0;      ///< samples dropped because a value was negative
-  uint64_t clipped = 0;       ///< sample values beyond the Film's range, stored at its limit
-  uint64_t outOfBounds = 0;   ///< indices refused in checked builds
+  uint64_t nonFinite = 0;   ///< samples dropped because a value was NaN or infinite
+  uint64_t negative = 0;    ///< samples dropped because a value was negative
+  uint64_t clipped = 0;     ///< sample values beyond the Film's range, stored at its limit
+  uint64_t outOfBounds = 0; ///< indices refused in checked builds
   [[nodiscard]] uint64_t total() const {
     return queueOverflow + stackOverflow + nonFinite + negative + clipped + outOfBounds;
   }
@@ -39,7 +39,7 @@ struct RenderStatistics {
   uint64_t primaryRays = 0;
   uint64_t bounceRays = 0;
   uint64_t shadowRays = 0;
-  double renderSeconds = 0;  ///< wall clock inside render/advance
+  double renderSeconds = 0; ///< wall clock inside render/advance
   double compileSeconds = 0;
   double firstPixelSeconds = 0; ///< from the PathTracer's construction to the end of the first submit
   uint64_t queueBytes = 0;
@@ -67,9 +67,10 @@ public:
   PathTracer& operator=(PathTracer&&) noexcept;
   ~PathTracer();
 
-  /// Adds samples `range` of every pixel of the film. `onProgress` is called after each submit; when it returns false no
-  /// new sample starts, those in flight finish, and render returns false with a valid film.
-  bool render(const Camera& camera, Film& film, SampleRange range, const std::function<bool(const Progress&)>& onProgress = {});
+  /// Adds samples `range` of every pixel of the film. `onProgress` is called after each submit; when it returns false
+  /// no new sample starts, those in flight finish, and render returns false with a valid film.
+  bool render(const Camera& camera, Film& film, SampleRange range,
+              const std::function<bool(const Progress&)>& onProgress = {});
 
   /// The same in steps, for a viewer: begin, then advance until it returns false. `cancel` drops the samples in flight
   /// (clear the film before the next begin).

@@ -12,8 +12,8 @@
 
 namespace isophote {
 
-inline constexpr int32_t kNone = -1;          ///< "no such thing" for signed indices below
-inline constexpr uint32_t kMaxUvSets = 4;     ///< TEXCOORD_0 to TEXCOORD_3
+inline constexpr int32_t kNone = -1;      ///< "no such thing" for signed indices below
+inline constexpr uint32_t kMaxUvSets = 4; ///< TEXCOORD_0 to TEXCOORD_3
 
 enum class Wrap : uint32_t { Repeat, ClampToEdge, MirroredRepeat };
 enum class Filter : uint32_t { Linear, Nearest };
@@ -75,8 +75,8 @@ struct Primitive {
   std::vector<glm::vec3> normals;  ///< unit; empty: flat shading with the geometric normal
   std::vector<glm::vec4> tangents; ///< unit xyz, w = +-1; present whenever the material has a normal texture
   std::array<std::vector<glm::vec2>, kMaxUvSets> uvs;
-  std::vector<glm::vec4> colors;   ///< linear RGBA
-  std::vector<uint32_t> indices;   ///< 3 per triangle, each < positions.size(); degenerate triangles removed
+  std::vector<glm::vec4> colors; ///< linear RGBA
+  std::vector<uint32_t> indices; ///< 3 per triangle, each < positions.size(); degenerate triangles removed
   uint32_t material = 0;
 };
 
@@ -98,8 +98,8 @@ struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::Point;
   glm::vec3 intensity{1};
-  float range = 0;            ///< 0: unlimited
-  float innerConeAngle = 0;   ///< radians, spot only
+  float range = 0;          ///< 0: unlimited
+  float innerConeAngle = 0; ///< radians, spot only
   float outerConeAngle = 0.7853981634f;
   glm::dvec3 position{0};
   glm::dvec3 direction{0, 0, -1}; ///< unit, the way the light travels
@@ -125,7 +125,7 @@ struct Environment {
   uint32_t height = 0;
   std::vector<glm::vec3> pixels; ///< linear radiance, finite, >= 0
   float intensity = 1;
-  double rotation = 0;           ///< radians about +y
+  double rotation = 0; ///< radians about +y
 };
 
 struct Scene {
@@ -138,7 +138,7 @@ struct Scene {
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
   std::optional<Environment> environment;
-  std::vector<std::string> warnings;        ///< one line each, once per cause
+  std::vector<std::string> warnings; ///< one line each, once per cause
   std::vector<std::string> extensionsUsed;
   std::vector<std::string> extensionsIgnored; ///< optional ones this build does not know
 };

@@ -28,9 +28,9 @@ struct EstimatorSettings {
 
 /// How the work is cut; never changes a bit of the image on one device and driver.
 struct ExecutionSettings {
-  uint32_t pathPoolSize = 0;  ///< 0: chosen for the device
-  uint32_t workgroupSize = 0; ///< 0: chosen for the device
-  bool specialize = true;     ///< false: the all-features kernels
+  uint32_t pathPoolSize = 0;       ///< 0: chosen for the device
+  uint32_t workgroupSize = 0;      ///< 0: chosen for the device
+  bool specialize = true;          ///< false: the all-features kernels
   double submitMilliseconds = 100; ///< aim for the length of one submit
 };
 

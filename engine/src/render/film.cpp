@@ -27,8 +27,8 @@ PixelRect fullOr(const PixelRect& crop, uint32_t width, uint32_t height) {
 
 Film::Film(const Device& device, const FilmOptions& options) : impl_(std::make_unique<Impl>()) {
   if (options.width < 1 || options.height < 1 || options.width > 65535 || options.height > 65535) {
-    throw LimitError(fmt::format("image of {} x {} pixels: each side must be between 1 and 65535", options.width,
-                                 options.height));
+    throw LimitError(
+        fmt::format("image of {} x {} pixels: each side must be between 1 and 65535", options.width, options.height));
   }
   impl_->device = &device;
   impl_->options = options;
@@ -39,8 +39,8 @@ Film::Film(const Device& device, const FilmOptions& options) : impl_(std::make_u
   if (pixels > (1ull << 28)) {
     throw LimitError(fmt::format("image of {} pixels: at most {} fit", pixels, 1ull << 28));
   }
-  impl_->replicates = gpu::Buffer(device, pixels * gpu::kReplicateCount * sizeof(gpu::ReplicateSum), gpu::Memory::Device,
-                                  "film.replicates");
+  impl_->replicates = gpu::Buffer(device, pixels * gpu::kReplicateCount * sizeof(gpu::ReplicateSum),
+                                  gpu::Memory::Device, "film.replicates");
   if (options.aovs) {
     impl_->aovs = gpu::Buffer(device, pixels * sizeof(gpu::AovSum), gpu::Memory::Device, "film.aovs");
   }

@@ -60,8 +60,10 @@ void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Imag
   constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
   for (const char* color : kColors) image.channels.push_back({color, std::vector<float>(pixels)});
   image.channels.push_back({"A", std::vector<float>(pixels)});
-  for (const char* color : kColors) image.channels.push_back({std::string("stderr.") + color, std::vector<float>(pixels)});
-  for (const char* color : kColors) image.channels.push_back({std::string("ci95.") + color, std::vector<float>(pixels)});
+  for (const char* color : kColors)
+    image.channels.push_back({std::string("stderr.") + color, std::vector<float>(pixels)});
+  for (const char* color : kColors)
+    image.channels.push_back({std::string("ci95.") + color, std::vector<float>(pixels)});
   image.channels.push_back({"sampleCount.Y", std::vector<float>(pixels)});
   for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
     const gpu::ReplicateSum* sum = sums + size_t{pixel} * gpu::kReplicateCount;
@@ -92,8 +94,8 @@ void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Imag
 void resolveAovs(const Film::Impl& film, const gpu::AovSum* sums, Image& image) {
   const uint32_t pixels = film.pixelCount();
   const size_t first = image.channels.size();
-  for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "position.X",
-                           "position.Y", "position.Z"}) {
+  for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z",
+                           "position.X", "position.Y", "position.Z"}) {
     image.channels.push_back({name, std::vector<float>(pixels)});
   }
   if (!film.scale) return;

@@ -59,8 +59,8 @@ struct PathTracer::Impl {
   uint64_t workEnd = 0;
   uint32_t wavesPerSubmit = 1;
   uint32_t activeLimit = 0;
-  bool accepting = true; ///< new samples may start
-  gpu::WaveState last{}; ///< at the end of the last submit
+  bool accepting = true;   ///< new samples may start
+  gpu::WaveState last{};   ///< at the end of the last submit
   RenderStatistics totals; ///< of finished renders; `last` holds the current one
 
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
@@ -104,8 +104,8 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   kernelFeatures = features;
   totals.compileSeconds += secondsSince(start);
   if (!pool) {
-    const uint32_t paths = execution.pathPoolSize != 0 ? execution.pathPoolSize
-                                                       : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
+    const uint32_t paths =
+        execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
     pool.emplace(device, paths, kernels->intersectShadow.has_value());
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
@@ -118,7 +118,8 @@ void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) 
   Film::Impl& target = film->impl();
   // Lengths: a power of two near the scene's radius, with room for points 2^33 radii away.
   const double radius = std::exp2(std::ceil(std::log2(std::max(gpuScene.worldRadius, 1e-30))));
-  const FilmScale scale = {.radiancePerUnit = gpuScene.emitterScale * std::ldexp(1.0, -static_cast<int>(gpu::kRadianceFractionBits)),
+  const FilmScale scale = {.radiancePerUnit =
+                               gpuScene.emitterScale * std::ldexp(1.0, -static_cast<int>(gpu::kRadianceFractionBits)),
                            .lengthPerUnit = radius * std::ldexp(1.0, -30),
                            .worldOrigin = gpuScene.worldOrigin};
   if (target.scale && !(*target.scale == scale)) throw Error("the film holds samples of another scene: clear it first");

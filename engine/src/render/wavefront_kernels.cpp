@@ -45,8 +45,9 @@ std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
   return kernels;
 }
 
-WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
-                                      uint32_t workgroupSize, VkDescriptorSetLayout textureLayout) {
+WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
+                                      const EstimatorSettings& settings, uint32_t workgroupSize,
+                                      VkDescriptorSetLayout textureLayout) {
   const auto constants = specialization(features, settings, workgroupSize);
   const auto make = [&](const char* name) {
     return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));

@@ -14,7 +14,7 @@ struct WavefrontKernels {
   gpu::Kernel prepare;
   gpu::Kernel regenerate;
   gpu::Kernel intersectClosest;
-  std::optional<gpu::Kernel> shadeEscaped;    ///< with an environment
+  std::optional<gpu::Kernel> shadeEscaped; ///< with an environment
   gpu::Kernel shadeSurface;
   std::optional<gpu::Kernel> intersectShadow; ///< with a light to sample
   gpu::Kernel accumulate;
