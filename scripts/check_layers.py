@@ -26,7 +26,6 @@ DEVICE_HEADERS = {
 }
 # Third parties that only these folders may include; tests and bench are free.
 LIBRARIES = [
-    (re.compile(r"tiny_?gltf"), {"engine/src/scene"}),
     (re.compile(r"OpenEXR/|Imf|Imath"), {"engine/src/io"}),
     (re.compile(r"stb_|stb/"), {"engine/src/scene", "engine/src/io"}),
     (re.compile(r"vulkan/"), {"engine/src/gpu", "engine/src/upload", "engine/src/render", "viewer"}),
