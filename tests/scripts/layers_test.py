@@ -25,7 +25,7 @@ class Layers(unittest.TestCase):
             ("engine/src/accel/a.cpp", "#include <vulkan/vulkan.h>"),
             ("engine/src/upload/a.hpp", '#include "render/path_pool.hpp"'),
             ("engine/src/estimate/a.cpp", '#include "gpu/buffer.hpp"'),
-            ("engine/src/render/a.cpp", "#include <tiny_gltf.h>"),
+            ("engine/src/render/a.cpp", "#include <stb_image.h>"),
             ("engine/src/render/a.cpp", "#include <OpenEXR/ImfChannelList.h>"),
             ("engine/src/misc/a.cpp", "#include <vector>"),
             ("engine/include/isophote/a.hpp", '#include "gpu/buffer.hpp"'),
@@ -45,7 +45,7 @@ class Layers(unittest.TestCase):
     def test_includes_that_point_down_are_accepted(self):
         allowed = [
             ("engine/src/render/a.cpp", '#include "upload/gpu_scene.hpp"\n#include "gpu/kernel.hpp"\n#include "isophote/film.hpp"'),
-            ("engine/src/scene/a.cpp", '#include <tiny_gltf.h>\n#include "isophote/image.hpp"\n#include "scene/glb.hpp"'),
+            ("engine/src/scene/a.cpp", '#include <stb_image.h>\n#include "isophote/image.hpp"\n#include "scene/glb.hpp"'),
             ("engine/include/isophote/device.hpp", "#include <vulkan/vulkan.h>"),
             ("viewer/a.cpp", '#include <imgui.h>\n#include "isophote/film.hpp"'),
         ]
