@@ -55,7 +55,6 @@ struct PathTracer::Impl {
   gpu::CommandStream commands;
 
   Film* film = nullptr; ///< of the render under way
-  uint64_t workBegin = 0;
   uint64_t workEnd = 0;
   uint32_t wavesPerSubmit = 1;
   uint32_t activeLimit = 0;
@@ -73,7 +72,7 @@ struct PathTracer::Impl {
   }
   void makeKernels(const Camera& camera);
   void writeRenderView(const Camera& camera, SampleRange range);
-  void dispatch(const gpu::Kernel& kernel, uint32_t prepare, uint32_t stage);
+  void dispatch(const gpu::Kernel& kernel, uint32_t stage);
   void recordPrepare(uint32_t part);
   void recordWave();
   void submit();
@@ -168,23 +167,23 @@ void PathTracer::Impl::recordPrepare(uint32_t part) {
   commands.dispatch(kernels->prepare, &args, sizeof(args), VK_NULL_HANDLE, 1);
 }
 
-void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t prepare, uint32_t stage) {
-  const gpu::KernelArgs args = arguments(prepare);
+void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t stage) {
+  const gpu::KernelArgs args = arguments(0); // `prepare` alone reads that member
   const uint64_t offset = offsetof(gpu::WaveState, dispatches) + stage * sizeof(gpu::DispatchSize);
   commands.dispatchIndirect(kernel, &args, sizeof(args), textures().set(), pool->wave, offset);
 }
 
 void PathTracer::Impl::recordWave() {
   recordPrepare(gpu::kPrepareRegenerate);
-  dispatch(kernels->regenerate, 0, gpu::kStageRegenerate);
+  dispatch(kernels->regenerate, gpu::kStageRegenerate);
   recordPrepare(gpu::kPrepareIntersect);
-  dispatch(kernels->intersectClosest, 0, gpu::kStageIntersectClosest);
+  dispatch(kernels->intersectClosest, gpu::kStageIntersectClosest);
   recordPrepare(gpu::kPrepareShade);
-  if (kernels->shadeEscaped) dispatch(*kernels->shadeEscaped, 0, gpu::kStageShadeEscaped);
-  dispatch(kernels->shadeSurface, 0, gpu::kStageShadeSurface);
+  if (kernels->shadeEscaped) dispatch(*kernels->shadeEscaped, gpu::kStageShadeEscaped);
+  dispatch(kernels->shadeSurface, gpu::kStageShadeSurface);
   recordPrepare(gpu::kPrepareShadow);
-  if (kernels->intersectShadow) dispatch(*kernels->intersectShadow, 0, gpu::kStageIntersectShadow);
-  dispatch(kernels->accumulate, 0, gpu::kStageAccumulate);
+  if (kernels->intersectShadow) dispatch(*kernels->intersectShadow, gpu::kStageIntersectShadow);
+  dispatch(kernels->accumulate, gpu::kStageAccumulate);
 }
 
 void PathTracer::Impl::submit() {
