@@ -89,7 +89,8 @@ Json statusJson(const StatusCounters& status) {
           {"non_finite", status.nonFinite},
           {"negative", status.negative},
           {"clipped", status.clipped},
-          {"out_of_bounds", status.outOfBounds}};
+          {"out_of_bounds", status.outOfBounds},
+          {"medium_overflow", status.mediumOverflow}};
 }
 
 Json statsJson(const RenderReport& report) {
@@ -106,6 +107,7 @@ Json statsJson(const RenderReport& report) {
           {"kernels", kernelsJson(render)},
           {"rays", {{"primary", render.primaryRays}, {"bounce", render.bounceRays}, {"shadow", render.shadowRays}}},
           {"mrays_per_s", seconds > 0 ? totalRays(render) / seconds * 1e-6 : 0.0},
+          {"camera_media", render.cameraMedia},
           {"spp", report.samplesPerPixel},
           {"seconds",
            {{"load", report.seconds.load},

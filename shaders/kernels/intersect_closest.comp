@@ -1,9 +1,15 @@
-// RayQueue -> surface queue | escaped queue (or straight to finished where nothing shines from outside).
+// RayQueue -> surface queue | medium queue | escaped queue (or straight to finished where nothing shines from outside).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "geometry/traverse.glsl"
 #include "kernels/wavefront.glsl"
+#include "medium/medium_stack.glsl"
+
+bool isInScatteringMedium(const uint slot) {
+  SceneRef scene = SceneRef(pc.scene);
+  return scatters(mediumOf(scene, currentMedium(scene, MediaRef(pc.media).items[slot].path)));
+}
 
 void main() {
   uint slot;
@@ -19,7 +25,12 @@ void main() {
   if (hit.stackOverflow) countStatus(kStatusStackOverflow);
   if (hit.found) {
     HitRef(pc.hits).items[slot] = HitState(hit.instance, hit.triangle, hit.barycentrics);
-    pushSlot(kQueueSurface, slot);
+    if (kHasVolumes) MediaRef(pc.media).items[slot].hitDistance = hit.t;
+    if (kHasScatteringMedia && isInScatteringMedium(slot)) {
+      pushSlot(kQueueMedium, slot);
+    } else {
+      pushSlot(kQueueSurface, slot);
+    }
   } else if (kHasEnvironment) {
     pushSlot(kQueueEscaped, slot);
   } else {

@@ -2,8 +2,39 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "geometry/surface.glsl"
 #include "geometry/traverse.glsl"
 #include "kernels/wavefront.glsl"
+#include "medium/medium_stack.glsl"
+
+// Boundaries that one shadow ray may pass; behind more it counts as blocked.
+const uint kMostBoundaries = 4096u;
+
+// What media leave of the light, 0 where a surface that can be seen lies between. Boundaries that do nothing are
+// passed. A ray that meets nothing any more has left every closed mesh, so that nothing absorbs on its last part.
+vec3 shadowTransmittance(const SceneRef scene, const ShadowState shadow, MediumStack stack, const AlphaKey key,
+                         inout bool stackOverflow) {
+  vec3 left = vec3(1.0);
+  vec3 origin = shadow.origin;
+  vec3 direction = shadow.direction;
+  const vec3 target = shadow.origin + shadow.direction; // where tMax = 1
+  const bool bounded = shadow.tMax < kRayInfinity;
+  for (uint i = 0u; i < kMostBoundaries; ++i) {
+    const RayHit hit = traceClosest(scene, origin, direction, 0.0, shadow.tMax, key);
+    stackOverflow = stackOverflow || hit.stackOverflow;
+    const vec3 extinction = mediumOf(scene, currentMedium(scene, stack)).extinction;
+    if (!hit.found) return bounded ? left * transmittance(extinction, length(direction)) : left;
+    const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, -direction);
+    if (!isVolumeBoundary(scene, surface.material)) return vec3(0.0);
+    const MediumCrossing crossing = crossBoundary(scene, stack, surface.material, surface.frontFace);
+    if (!isInvisible(scene, crossing, surface.material)) return vec3(0.0);
+    left *= transmittance(extinction, hit.t * length(direction));
+    stack = crossing.across;
+    origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, direction);
+    if (bounded) direction = target - origin;
+  }
+  return vec3(0.0);
+}
 
 void main() {
   uint slot;
@@ -16,8 +47,13 @@ void main() {
     key = AlphaKey(paths.items[slot].pixel, paths.items[slot].sampleIndex, RenderRef(pc.render).view.seed,
                    paths.items[slot].depth | 0x80000000u);
   }
-  bool stackOverflow;
-  if (!traceOccluded(SceneRef(pc.scene), shadow.origin, shadow.direction, 0.0, shadow.tMax, key, stackOverflow)) {
+  bool stackOverflow = false;
+  if (kHasVolumes) {
+    paths.items[slot].radiance +=
+        shadow.contribution *
+        shadowTransmittance(SceneRef(pc.scene), shadow, MediaRef(pc.media).items[slot].shadow, key, stackOverflow);
+  } else if (!traceOccluded(SceneRef(pc.scene), shadow.origin, shadow.direction, 0.0, shadow.tMax, key,
+                            stackOverflow)) {
     paths.items[slot].radiance += shadow.contribution;
   }
   if (stackOverflow) countStatus(kStatusStackOverflow);

@@ -9,6 +9,12 @@ DispatchSize groupsFor(const uint count) {
   return DispatchSize((count + pc.workgroupSize - 1u) / pc.workgroupSize, 1u, 1u);
 }
 
+// Before the first stage that shades.
+void emptyNextQueues(const WaveRef wave) {
+  wave.state.counts[kQueueRay] = 0u;
+  wave.state.counts[kQueueShadow] = 0u;
+}
+
 void prepareRegenerate(const WaveRef wave) {
   RenderRef render = RenderRef(pc.render);
   const uint freeCount = wave.state.counts[kQueueFree];
@@ -40,11 +46,15 @@ void main() {
     wave.state.primaryRays += uint64_t(wave.state.counts[kQueueRay]);
     wave.state.counts[kQueueSurface] = 0u;
     wave.state.counts[kQueueEscaped] = 0u;
+    wave.state.counts[kQueueMedium] = 0u;
     wave.state.dispatches[kStageIntersectClosest] = groupsFor(wave.state.counts[kQueueRay]);
     break;
+  case kPrepareMedium:
+    emptyNextQueues(wave);
+    wave.state.dispatches[kStageShadeMedium] = groupsFor(wave.state.counts[kQueueMedium]);
+    break;
   case kPrepareShade:
-    wave.state.counts[kQueueRay] = 0u;
-    wave.state.counts[kQueueShadow] = 0u;
+    if (!kHasScatteringMedia) emptyNextQueues(wave);
     wave.state.dispatches[kStageShadeEscaped] = groupsFor(wave.state.counts[kQueueEscaped]);
     wave.state.dispatches[kStageShadeSurface] = groupsFor(wave.state.counts[kQueueSurface]);
     break;

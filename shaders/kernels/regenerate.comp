@@ -42,5 +42,9 @@ void main() {
 
   RayRef(pc.rays).items[slot] = RayState(ray.origin, ray.tMin, ray.direction, ray.tMax);
   PathRef(pc.paths).items[slot] = PathState(vec3(1.0), 0.0, vec3(0.0), 0u, key.pixel, sampleIndex, 0u);
+  if (kHasVolumes) {
+    const MediumStack around = render.view.cameraMedia;
+    MediaRef(pc.media).items[slot] = MediaState(around, around, 0.0, 0.0, 0u);
+  }
   pushSlot(kQueueRay, slot);
 }

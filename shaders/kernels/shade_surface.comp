@@ -9,23 +9,14 @@
 #include "geometry/ray_offset.glsl"
 #include "geometry/surface.glsl"
 #include "kernels/mis.glsl"
+#include "kernels/shadow_ray.glsl"
+#include "kernels/vertex.glsl"
 #include "kernels/wavefront.glsl"
 #include "light/emission.glsl"
 #include "light/light_sample.glsl"
 #include "math/frame.glsl"
+#include "medium/medium_stack.glsl"
 #include "sampling/sampler.glsl"
-
-// Pairs of random numbers of path vertex d start at kFirstVertexPair + kVertexPairs * d.
-const uint kFirstVertexPair = 2u;
-const uint kVertexPairs = 4u;
-
-// Roulette starts at this depth, and never lets a path live with more than this probability: a lossless closed scene
-// ends. At reflectance rho the weights of long paths have finite variance only where rho^2 is below this limit, so it
-// must be close to 1: with 0.95 a closed room of reflectance 0.98 would never converge.
-const uint kRouletteDepth = 3u;
-const float kRouletteMaxSurvival = 0.999;
-
-const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
 
 // A light's contribution at the surface, put up for the visibility test.
 void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
@@ -41,19 +32,9 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
 
-  // Direction and length are taken between the offset points: at grazing angles the surface point's own would pass
-  // below the light.
+  if (kHasVolumes) MediaRef(pc.media).items[slot].shadow = MediaRef(pc.media).items[slot].path;
   const vec3 origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, light.wi);
-  vec3 direction = light.wi;
-  float tMax = kRayInfinity;
-  if (!light.atInfinity) {
-    const vec3 target =
-        light.delta ? light.point : offsetRayOrigin(light.point, light.pointError, light.ngLight, -light.wi);
-    direction = target - origin; // not normalised: t runs from 0 to 1
-    tMax = 1.0;
-  }
-  ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
-  pushSlot(kQueueShadow, slot);
+  queueShadowRay(slot, origin, light, contribution);
 }
 
 // Continues the path by a BSDF sample; false where it ends.
@@ -66,31 +47,51 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
   if (dot(surface.ng, wi) <= 0.0) return false;
   path.beta *= bsdf.weight;
   path.depth += 1u;
-  float brightest = max(path.beta.x, max(path.beta.y, path.beta.z));
-  if (kRussianRoulette == 1u && path.depth >= kRouletteDepth) {
-    const float survival = min(brightest, kRouletteMaxSurvival);
-    if (choice.y >= survival) return false;
-    path.beta /= survival;
-    brightest /= survival;
-  }
-  if (!(brightest > 0.0)) return false;
+  const float brightest = max(path.beta.x, max(path.beta.y, path.beta.z));
+  if (!(brightest > 0.0) || !survivesRoulette(brightest, choice.y, path)) return false;
   path.pdfSolidAngle = bsdf.delta ? 0.0 : bsdf.pdfSolidAngle;
+  if (kHasVolumes) MediaRef(pc.media).items[slot].travelled = 0.0;
   RayRef(pc.rays).items[slot] =
       RayState(offsetRayOrigin(surface.p, surface.pError, surface.ng, wi), 0.0, wi, kRayInfinity);
   return true;
 }
 
 // Radiance that the surface itself sends towards wo, weighted against light sampling.
-vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState ray, const PathState path) {
+// @param travelled  from the last scattering to the ray's origin
+vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState ray, const float travelled,
+                const PathState path) {
   if (!kHasEmissiveTriangles) return vec3(0.0);
   const vec3 Le = emittedRadiance(scene, surface);
   if (all(equal(Le, vec3(0.0)))) return vec3(0.0);
   float pdfLight = 0.0;
   if (path.pdfSolidAngle > 0.0) {
-    pdfLight =
-        emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)), distance(surface.p, ray.origin));
+    pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)),
+                                    distance(surface.p, ray.origin) + travelled);
   }
   return Le * emissionWeight(path.pdfSolidAngle, pdfLight);
+}
+
+// What the medium between the ray's origin and the surface leaves of the throughput; sampling did that already where it
+// scatters.
+void absorbAlongRay(const SceneRef scene, const uint slot, inout PathState path) {
+  MediaRef media = MediaRef(pc.media);
+  const uint material = currentMedium(scene, media.items[slot].path);
+  if (material == kInvalidIndex) return;
+  const Medium medium = mediumOf(scene, material);
+  if (!scatters(medium)) path.beta *= transmittance(medium.extinction, media.items[slot].hitDistance);
+}
+
+// Sends the path straight on, where the surface is a boundary that does nothing.
+bool passesInvisibly(const SceneRef scene, const SurfaceHit surface, const RayState ray, const MediumCrossing crossing,
+                     const uint slot) {
+  if (!isInvisible(scene, crossing, surface.material)) return false;
+  MediaRef media = MediaRef(pc.media);
+  const float hitDistance = media.items[slot].hitDistance;
+  media.items[slot].path = crossing.across;
+  media.items[slot].travelled += hitDistance;
+  RayRef(pc.rays).items[slot] = RayState(offsetRayOrigin(surface.p, surface.pError, surface.ng, ray.direction), 0.0,
+                                         ray.direction, ray.tMax - hitDistance);
+  return true;
 }
 
 void main() {
@@ -104,6 +105,19 @@ void main() {
   const vec3 wo = -ray.direction;
 
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, wo);
+  if (kHasVolumes) {
+    absorbAlongRay(scene, slot, path);
+    if (isVolumeBoundary(scene, surface.material)) {
+      const MediumStack stack = MediaRef(pc.media).items[slot].path;
+      if (surface.frontFace && isFull(stack)) countStatus(kStatusMediumOverflow);
+      const MediumCrossing crossing = crossBoundary(scene, stack, surface.material, surface.frontFace);
+      if (passesInvisibly(scene, surface, ray, crossing, slot)) {
+        PathRef(pc.paths).items[slot] = path;
+        pushSlot(kQueueRay, slot);
+        return;
+      }
+    }
+  }
   const SurfaceMaterial material = materialAt(scene, surface);
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {
@@ -115,7 +129,8 @@ void main() {
     path.radiance += path.beta * material.baseColor;
     alive = false;
   } else {
-    path.radiance += path.beta * emissionAt(scene, surface, ray, path);
+    path.radiance +=
+        path.beta * emissionAt(scene, surface, ray, kHasVolumes ? MediaRef(pc.media).items[slot].travelled : 0.0, path);
   }
   if (alive) {
     const Frame frame = frameFromNormal(ns);

@@ -20,6 +20,8 @@ ISOPHOTE_CONST uint kAlphaMask = 1u;
 ISOPHOTE_CONST uint kAlphaBlend = 2u;
 ISOPHOTE_CONST uint kMaterialDoubleSided = 1u;
 ISOPHOTE_CONST uint kMaterialUnlit = 2u;
+ISOPHOTE_CONST uint kMaterialVolume = 4u; // the boundary of a medium: thickness > 0, and something passes
+ISOPHOTE_CONST uint kMaterialClear = 8u;  // a boundary that does nothing but refract: invisible between equal indices
 
 // Texture members (…Slot) index the TextureSlot array, kInvalidIndex: none. Members are read one by one: those of a
 // feature that the scene lacks cost memory only.
@@ -48,10 +50,10 @@ struct MaterialRecord {
   float transmission;
   float diffuseTransmission;
   vec3 diffuseTransmissionColor;
-  float thickness; // 0: thin-walled
-  vec3 attenuationColor;
-  float attenuationDistance; // 0: infinite
-  vec3 multiscatterColor;
+  float thickness;       // 0: thin-walled
+  vec3 extinction;       // of the medium behind the surface, per unit of length: absorption and scattering
+  float mediumPriority;  // where media overlap, the highest fills the place
+  vec3 scatteringAlbedo; // of one scattering, scattering over extinction
   float scatterAnisotropy;
   uint baseColorSlot;
   uint metallicRoughnessSlot;

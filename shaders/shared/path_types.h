@@ -42,13 +42,30 @@ struct ShadowState {
   vec3 contribution; // complete: beta, BSDF, light, MIS weight and 1/pdf
 };
 
+// The media around a point, by the material of their boundaries, in the order in which a path entered them;
+// kInvalidIndex after the last.
+ISOPHOTE_CONST uint kMediumStackSize = 4u;
+struct MediumStack {
+  uint materials[4]; // kMediumStackSize
+};
+
+// What a path knows of media; only in scenes with volumes.
+struct MediaState {
+  MediumStack path;   // around its ray
+  MediumStack shadow; // around its shadow ray
+  float travelled;    // since the last scattering, through boundaries that do nothing, up to the ray's origin
+  float hitDistance;  // of the ray
+  uint segments;      // free paths sampled so far
+};
+
 ISOPHOTE_CONST uint kQueueFree = 0u;
 ISOPHOTE_CONST uint kQueueRay = 1u;
 ISOPHOTE_CONST uint kQueueSurface = 2u;
 ISOPHOTE_CONST uint kQueueEscaped = 3u;
 ISOPHOTE_CONST uint kQueueShadow = 4u;
 ISOPHOTE_CONST uint kQueueFinished = 5u;
-ISOPHOTE_CONST uint kQueueCount = 6u;
+ISOPHOTE_CONST uint kQueueMedium = 6u; // last: absent without scattering media
+ISOPHOTE_CONST uint kQueueCount = 7u;
 
 // Where each stage finds its indirect dispatch size in WaveState.dispatches.
 ISOPHOTE_CONST uint kStageRegenerate = 0u;
@@ -57,13 +74,15 @@ ISOPHOTE_CONST uint kStageShadeEscaped = 2u;
 ISOPHOTE_CONST uint kStageShadeSurface = 3u;
 ISOPHOTE_CONST uint kStageIntersectShadow = 4u;
 ISOPHOTE_CONST uint kStageAccumulate = 5u;
-ISOPHOTE_CONST uint kStageCount = 6u;
+ISOPHOTE_CONST uint kStageShadeMedium = 6u;
+ISOPHOTE_CONST uint kStageCount = 7u;
 
 // Which part of the bookkeeping `prepare` does.
 ISOPHOTE_CONST uint kPrepareRegenerate = 0u;
 ISOPHOTE_CONST uint kPrepareIntersect = 1u;
 ISOPHOTE_CONST uint kPrepareShade = 2u;
 ISOPHOTE_CONST uint kPrepareShadow = 3u;
+ISOPHOTE_CONST uint kPrepareMedium = 4u; // before kPrepareShade
 
 ISOPHOTE_CONST uint kStatusQueueOverflow = 0u;
 ISOPHOTE_CONST uint kStatusStackOverflow = 1u;
@@ -71,7 +90,8 @@ ISOPHOTE_CONST uint kStatusNonFinite = 2u;
 ISOPHOTE_CONST uint kStatusNegative = 3u;
 ISOPHOTE_CONST uint kStatusClipped = 4u;
 ISOPHOTE_CONST uint kStatusOutOfBounds = 5u;
-ISOPHOTE_CONST uint kStatusCount = 6u;
+ISOPHOTE_CONST uint kStatusMediumOverflow = 6u;
+ISOPHOTE_CONST uint kStatusCount = 7u;
 
 struct DispatchSize {
   uint x;
@@ -85,9 +105,9 @@ struct WaveState {
   Uint64 primaryRays;
   Uint64 bounceRays;
   Uint64 shadowRays;
-  DispatchSize dispatches[6]; // kStageCount
-  uint counts[6];             // kQueueCount
-  uint status[6];             // kStatusCount
+  DispatchSize dispatches[7]; // kStageCount
+  uint counts[7];             // kQueueCount
+  uint status[7];             // kStatusCount
   uint regenerateCount;       // of this wave
   uint regenerateSample;      // sample index, relative to firstSample, and padded pixel of its first work item
   uint regeneratePixel;
@@ -112,6 +132,7 @@ struct RenderView {
   uvec2 seed;
   float radianceScale; // fixed point per unit of radiance
   float distanceScale; // fixed point per unit of length
+  MediumStack cameraMedia;
 };
 
 // The push constant of every wavefront kernel.
@@ -124,6 +145,7 @@ struct KernelArgs {
   Address hits;
   Address paths;
   Address shadows;
+  Address media; // MediaState[capacity], 0 without volumes
   uint capacity;
   uint activeLimit; // paths in flight, 0: no new path starts
   uint prepare;     // kPrepare*

@@ -33,7 +33,7 @@ MediumCoefficients mediumCoefficients(const Volume& volume) {
       result.extinction[c] = std::min(-std::log(color), 1e9) / volume.attenuationDistance;
     const double rho = volume.multiscatterColor[c];
     const double s = 4.09712 + 4.20863 * rho - std::sqrt(9.59217 + 41.6808 * rho + 17.7126 * rho * rho);
-    result.albedo[c] = std::clamp(1 - s * s, 0.0, 1.0);
+    result.albedo[c] = rho > 0 ? std::clamp(1 - s * s, 0.0, 1.0) : 0;
   }
   return result;
 }

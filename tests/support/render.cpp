@@ -16,6 +16,7 @@ void expectHealthy(const RenderStatistics& statistics) {
   EXPECT_EQ(status.negative, 0u);
   EXPECT_EQ(status.clipped, 0u);
   EXPECT_EQ(status.outOfBounds, 0u);
+  EXPECT_EQ(status.mediumOverflow, 0u);
 }
 
 Image renderImage(const Scene& scene, const Camera& camera, uint32_t width, uint32_t height, uint32_t samplesPerPixel,

@@ -17,12 +17,13 @@ namespace isophote {
 struct StatusCounters {
   uint64_t queueOverflow = 0;
   uint64_t stackOverflow = 0;
-  uint64_t nonFinite = 0;   ///< samples dropped because a value was NaN or infinite
-  uint64_t negative = 0;    ///< samples dropped because a value was negative
-  uint64_t clipped = 0;     ///< sample values beyond the Film's range, stored at its limit
-  uint64_t outOfBounds = 0; ///< indices refused in checked builds
+  uint64_t nonFinite = 0;      ///< samples dropped because a value was NaN or infinite
+  uint64_t negative = 0;       ///< samples dropped because a value was negative
+  uint64_t clipped = 0;        ///< sample values beyond the Film's range, stored at its limit
+  uint64_t outOfBounds = 0;    ///< indices refused in checked builds
+  uint64_t mediumOverflow = 0; ///< volumes entered inside more others than a path remembers; they were ignored
   [[nodiscard]] uint64_t total() const {
-    return queueOverflow + stackOverflow + nonFinite + negative + clipped + outOfBounds;
+    return queueOverflow + stackOverflow + nonFinite + negative + clipped + outOfBounds + mediumOverflow;
   }
 };
 
@@ -48,7 +49,8 @@ struct RenderStatistics {
   uint32_t workgroupSize = 0;
   std::vector<KernelStatistics> kernels; ///< those that exist
   std::vector<BufferUse> buffers;
-  bool textureBinding = false; ///< some kernel declares the texture array
+  bool textureBinding = false;          ///< some kernel declares the texture array
+  std::vector<std::string> cameraMedia; ///< materials of the volumes that the last camera was in, the outermost first
   StatusCounters status;
 };
 

@@ -102,7 +102,10 @@ struct Volume {
   float attenuationDistance = 0;  ///< distance at which white has become attenuationColor; 0: infinite
   glm::vec3 multiscatterColor{0}; ///< multiple-scattering albedo; black: absorption only
   float scatterAnisotropy = 0;    ///< Henyey-Greenstein g, in (-1, 1)
-  TextureRef thicknessTexture;    ///< G
+  /// Where volumes overlap, the highest fills the place; of equal ones the one entered last. glTF: `extras.priority` of
+  /// the material.
+  float priority = 0;
+  TextureRef thicknessTexture; ///< G
 };
 
 /// Metallic-roughness and its extensions. Factors are linear; a texture multiplies the factor it stands beside.

@@ -10,6 +10,13 @@
 
 namespace isophote {
 
+/// What some scenes do without.
+struct PathPoolParts {
+  bool shadows = true;
+  bool media = true;           ///< state of volumes
+  bool scatteringMedia = true; ///< their queue
+};
+
 struct PathPool {
   uint32_t capacity = 0;
   gpu::Buffer queues;
@@ -17,12 +24,13 @@ struct PathPool {
   gpu::Buffer hits;
   gpu::Buffer paths;
   gpu::Buffer shadows; ///< null where no light is sampled
+  gpu::Buffer media;   ///< MediaState; null without volumes
   gpu::Buffer wave;    ///< WaveState
   gpu::Buffer render;  ///< RenderView
   gpu::Buffer filterTable;
   gpu::Buffer readback; ///< WaveState on the host, copied at the end of each submit
 
-  PathPool(const Device& device, uint32_t paths, bool withShadows);
+  PathPool(const Device& device, uint32_t paths, const PathPoolParts& parts);
 
   /// All slots free, counters zero.
   void reset(const Device& device) const;

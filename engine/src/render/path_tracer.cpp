@@ -10,9 +10,11 @@
 
 #include "gpu/commands.hpp"
 #include "isophote/error.hpp"
+#include "render/camera_media.hpp"
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
 #include "render/wavefront_kernels.hpp"
+#include "shared/geometry_types.h"
 #include "upload/camera_record.hpp"
 #include "upload/filter_table.hpp"
 #include "upload/gpu_scene.hpp"
@@ -30,7 +32,7 @@ constexpr uint32_t kGpuPathPool = 1u << 20;
 constexpr uint32_t kCpuWorkgroup = 64;
 constexpr uint32_t kGpuWorkgroup = 128;
 constexpr uint32_t kMaxWavesPerSubmit = 64;
-constexpr uint32_t kDispatchesPerWave = 10;
+constexpr uint32_t kDispatchesPerWave = 12;
 // Watchdogs kill long dispatches, and Ctrl-C must be answered: above this the wave gets smaller.
 constexpr double kLongestDispatchMilliseconds = 100;
 constexpr uint32_t kFewestActivePaths = 256;
@@ -72,6 +74,7 @@ struct PathTracer::Impl {
   }
   void makeKernels(const Camera& camera);
   void writeRenderView(const Camera& camera, SampleRange range);
+  void findCameraMedia();
   void dispatch(const gpu::Kernel& kernel, uint32_t stage);
   void recordPrepare(uint32_t part);
   void recordWave();
@@ -105,7 +108,10 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
-    pool.emplace(device, paths, kernels->intersectShadow.has_value());
+    pool.emplace(device, paths,
+                 PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                               .media = features.has(Feature::kHasVolumes),
+                               .scatteringMedia = kernels->shadeMedium.has_value()});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
@@ -147,6 +153,23 @@ void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) 
   gpu::writeBuffer(device, pool->render, 0, std::as_bytes(std::span(&view, 1)));
 }
 
+// Which media the camera is in: asked along many directions, and the most frequent answer taken.
+void PathTracer::Impl::findCameraMedia() {
+  totals.cameraMedia.clear();
+  if (!kernels->findCameraMedia) return;
+  const gpu::KernelArgs args = arguments(0);
+  commands.begin();
+  commands.dispatch(*kernels->findCameraMedia, &args, sizeof(args), textures().set(), 1);
+  commands.submitAndWait();
+  std::vector<gpu::MediaState> answers(std::min(workgroupSize, pool->capacity));
+  gpu::readBuffer(device, pool->media, 0, std::as_writable_bytes(std::span(answers)));
+  const gpu::MediumStack found = mostFrequent(answers);
+  gpu::writeBuffer(device, pool->render, offsetof(gpu::RenderView, cameraMedia), std::as_bytes(std::span(&found, 1)));
+  for (const uint32_t material : found.materials) {
+    if (material != gpu::kInvalidIndex) totals.cameraMedia.push_back(scene.impl().materialNames[material]);
+  }
+}
+
 gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
   return {.scene = scene.impl().view.address(),
           .render = pool->render.address(),
@@ -156,6 +179,7 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .hits = pool->hits.address(),
           .paths = pool->paths.address(),
           .shadows = pool->shadows.address(),
+          .media = pool->media.address(),
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,
           .prepare = prepare,
@@ -178,6 +202,10 @@ void PathTracer::Impl::recordWave() {
   dispatch(kernels->regenerate, gpu::kStageRegenerate);
   recordPrepare(gpu::kPrepareIntersect);
   dispatch(kernels->intersectClosest, gpu::kStageIntersectClosest);
+  if (kernels->shadeMedium) {
+    recordPrepare(gpu::kPrepareMedium);
+    dispatch(*kernels->shadeMedium, gpu::kStageShadeMedium);
+  }
   recordPrepare(gpu::kPrepareShade);
   if (kernels->shadeEscaped) dispatch(*kernels->shadeEscaped, gpu::kStageShadeEscaped);
   dispatch(kernels->shadeSurface, gpu::kStageShadeSurface);
@@ -220,6 +248,7 @@ void PathTracer::Impl::retire() {
   totals.status.negative += last.status[gpu::kStatusNegative];
   totals.status.clipped += last.status[gpu::kStatusClipped];
   totals.status.outOfBounds += last.status[gpu::kStatusOutOfBounds];
+  totals.status.mediumOverflow += last.status[gpu::kStatusMediumOverflow];
   last = {};
   film = nullptr;
 }
@@ -243,6 +272,7 @@ void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   impl_->film = &film;
   impl_->accepting = true;
   impl_->writeRenderView(camera, range);
+  impl_->findCameraMedia();
   impl_->pool->reset(impl_->device);
   impl_->last = {};
   impl_->last.counts[gpu::kQueueFree] = impl_->pool->capacity;

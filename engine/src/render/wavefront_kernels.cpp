@@ -39,9 +39,11 @@ bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings
 std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
   std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
   if (shadeEscaped) kernels.push_back(&*shadeEscaped);
+  if (shadeMedium) kernels.push_back(&*shadeMedium);
   kernels.push_back(&shadeSurface);
   if (intersectShadow) kernels.push_back(&*intersectShadow);
   kernels.push_back(&accumulate);
+  if (findCameraMedia) kernels.push_back(&*findCameraMedia);
   return kernels;
 }
 
@@ -56,10 +58,14 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                            .regenerate = make("regenerate"),
                            .intersectClosest = make("intersect_closest"),
                            .shadeEscaped = std::nullopt,
+                           .shadeMedium = std::nullopt,
                            .shadeSurface = make("shade_surface"),
                            .intersectShadow = std::nullopt,
-                           .accumulate = make("accumulate")};
+                           .accumulate = make("accumulate"),
+                           .findCameraMedia = std::nullopt};
   if (features.has(Feature::kHasEnvironment)) kernels.shadeEscaped = make("shade_escaped");
+  if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
+  if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
   if (samplesLights(features, settings)) kernels.intersectShadow = make("intersect_shadow");
   return kernels;
 }

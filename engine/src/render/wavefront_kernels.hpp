@@ -15,9 +15,11 @@ struct WavefrontKernels {
   gpu::Kernel regenerate;
   gpu::Kernel intersectClosest;
   std::optional<gpu::Kernel> shadeEscaped; ///< with an environment
+  std::optional<gpu::Kernel> shadeMedium;  ///< with scattering media
   gpu::Kernel shadeSurface;
   std::optional<gpu::Kernel> intersectShadow; ///< with a light to sample
   gpu::Kernel accumulate;
+  std::optional<gpu::Kernel> findCameraMedia; ///< with volumes; once a render
 
   /// Those that exist, in the order of a wave.
   [[nodiscard]] std::vector<const gpu::Kernel*> all() const;

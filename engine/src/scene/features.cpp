@@ -1,5 +1,6 @@
 #include "isophote/features.hpp"
 
+#include "scene/medium.hpp"
 #include "shared/bsdf_constants.h"
 
 #include <algorithm>
@@ -43,6 +44,11 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
   if (material.unlit) {
     features.add(Feature::kHasUnlit);
     return;
+  }
+  if (isVolume(material)) {
+    features.add(Feature::kHasVolumes);
+    const MediumCoefficients medium = mediumCoefficients(material.volume);
+    if (medium.extinction * medium.albedo != glm::vec3(0)) features.add(Feature::kHasScatteringMedia);
   }
   // Factors multiply textures of at most 1, so a factor of 0 rules the lobe out. A dielectric with ior 1 keeps its
   // grazing reflection (f90 = specular).

@@ -1,6 +1,7 @@
 // Source: the README of each extension in KhronosGroup/glTF.
 #include "scene/gltf_material_extensions.hpp"
 
+#include <algorithm>
 #include <cfloat>
 
 namespace isophote::gltf {
@@ -68,6 +69,15 @@ void readVolume(MaterialProperties& properties, const Json& json, Volume& volume
   volume.attenuationDistance = properties.factor(json, "attenuationDistance", 0, 0, FLT_MAX);
 }
 
+/// Not glTF's: which of several overlapping volumes fills a place, after Schmidt and Budge 2002. Anything else under
+/// that name is somebody else's.
+void readPriority(const Json& material, Volume& volume) {
+  const Json* extras = member(material, "extras");
+  if (!extras || !extras->is_object()) return;
+  const Json* priority = member(*extras, "priority");
+  if (priority && priority->is_number()) volume.priority = std::clamp(priority->get<float>(), -1e30f, 1e30f);
+}
+
 void readVolumeScatter(MaterialProperties& properties, const Json& json, Volume& volume) {
   constexpr float kLargestAnisotropy = 0.999f; // 1 would scatter straight ahead only
   volume.multiscatterColor = properties.color(json, "multiscatterColor", glm::vec3(0), 1);
@@ -90,6 +100,7 @@ void readMaterialExtensions(MaterialProperties& properties, const Json& json, Ma
   read("KHR_materials_diffuse_transmission", readDiffuseTransmission, material.diffuseTransmission);
   read("KHR_materials_volume", readVolume, material.volume);
   read("KHR_materials_volume_scatter", readVolumeScatter, material.volume);
+  readPriority(json, material.volume);
   if (const Json* dispersion = extension(json, "KHR_materials_dispersion")) {
     material.dispersion = properties.factor(*dispersion, "dispersion", 0, 0, FLT_MAX);
   }

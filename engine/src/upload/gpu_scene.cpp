@@ -129,6 +129,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : impl_(std::make_u
   setBvhStatistics(packed.bvh, statistics);
   statistics.packSeconds = secondsSince(packStart) - statistics.bvhSeconds;
   impl_->features = packed.features;
+  impl_->materialNames = packed.materialNames;
   impl_->worldOrigin = packed.worldOrigin;
   impl_->worldCenter = packed.worldCenter;
   impl_->worldRadius = packed.worldRadius;

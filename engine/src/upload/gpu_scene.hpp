@@ -1,6 +1,7 @@
 // What GpuScene owns, for the renderer.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -21,6 +22,7 @@ struct GpuScene::Impl {
   glm::dvec3 worldCenter{0}; ///< of the bounds, absolute
   double worldRadius = 1;
   float emitterScale = 1;
+  std::vector<std::string> materialNames; ///< by index on the device
 };
 
 } // namespace isophote

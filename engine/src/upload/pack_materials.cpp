@@ -1,5 +1,7 @@
 #include "upload/pack_materials.hpp"
 
+#include "scene/medium.hpp"
+
 #include <map>
 #include <tuple>
 
@@ -18,6 +20,7 @@ public:
     setLayers(material, record);
     setInterior(material, record);
     packed_.materials.push_back(record);
+    packed_.materialNames.push_back(material.name);
     return uvSets_;
   }
 
@@ -80,10 +83,13 @@ private:
     const Volume& volume = material.volume;
     record.thickness = volume.thickness;
     record.thicknessSlot = slot(volume.thicknessTexture, false);
-    record.attenuationColor = volume.attenuationColor;
-    record.attenuationDistance = volume.attenuationDistance;
-    record.multiscatterColor = volume.multiscatterColor;
+    const MediumCoefficients medium = mediumCoefficients(volume);
+    record.extinction = medium.extinction;
+    record.scatteringAlbedo = medium.albedo;
     record.scatterAnisotropy = volume.scatterAnisotropy;
+    record.mediumPriority = volume.priority;
+    if (isVolume(material)) record.flags |= gpu::kMaterialVolume;
+    if (isClear(material)) record.flags |= gpu::kMaterialClear;
   }
 
   uint32_t slot(const TextureRef& use, bool srgb) {
@@ -121,9 +127,12 @@ PackedMaterials packMaterials(const Scene& scene, const std::vector<bool>& meshU
   for (size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
     if (!meshUsed[mesh]) continue;
     for (const Primitive& primitive : scene.meshes[mesh].primitives) {
-      if (result.record[primitive.material] != gpu::kInvalidIndex) continue;
-      result.record[primitive.material] = static_cast<uint32_t>(packed.materials.size());
-      result.uvSets[primitive.material] = packer.add(scene.materials[primitive.material]);
+      uint32_t& record = result.record[primitive.material];
+      if (record == gpu::kInvalidIndex) {
+        record = static_cast<uint32_t>(packed.materials.size());
+        result.uvSets[primitive.material] = packer.add(scene.materials[primitive.material]);
+      }
+      if (!primitive.colors.empty()) packed.materials[record].flags &= ~gpu::kMaterialClear; // they tint it
     }
   }
   return result;

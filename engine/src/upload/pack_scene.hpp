@@ -1,6 +1,7 @@
 // Scene -> flat arrays of the shared structs. No device needed, so testable anywhere.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -43,6 +44,7 @@ struct PackedScene {
   std::vector<glm::vec4> colors;
   std::vector<glm::vec2> uvs;
   std::vector<gpu::MaterialRecord> materials;
+  std::vector<std::string> materialNames; ///< of `materials`
   std::vector<gpu::TextureSlot> textureSlots;
   std::vector<PackedTexture> textures;
   std::vector<gpu::AliasEntry> lightAlias;

@@ -1,0 +1,28 @@
+// Light samples on their way to the visibility test.
+#ifndef ISOPHOTE_KERNELS_SHADOW_RAY_GLSL
+#define ISOPHOTE_KERNELS_SHADOW_RAY_GLSL
+
+#include "geometry/ray_offset.glsl"
+#include "kernels/wavefront.glsl"
+#include "light/light_sample.glsl"
+
+/// Queues the ray from `origin` to a light sample.
+///
+/// @param origin        off the surface that it leaves
+/// @param contribution  complete, but for what is between the two
+void queueShadowRay(const uint slot, const vec3 origin, const LightSample light, const vec3 contribution) {
+  // Direction and length are taken between the offset points: at grazing angles the surface point's own would pass
+  // below the light.
+  vec3 direction = light.wi;
+  float tMax = kRayInfinity;
+  if (!light.atInfinity) {
+    const vec3 target =
+        light.delta ? light.point : offsetRayOrigin(light.point, light.pointError, light.ngLight, -light.wi);
+    direction = target - origin; // not normalised: t runs from 0 to 1
+    tMax = 1.0;
+  }
+  ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
+  pushSlot(kQueueShadow, slot);
+}
+
+#endif
