@@ -28,9 +28,9 @@ struct LightScene {
   std::vector<glm::vec2> uvs;
   std::vector<gpu::EmissiveTriangle> emissiveTriangles;
   std::vector<gpu::PunctualLightRecord> punctualLights;
-  std::vector<double> powers; ///< of every light in the order of light indices
+  std::vector<double> powers;     ///< of every light in the order of light indices
   std::vector<LightBound> bounds; ///< for the light tree; none: the scene has no tree
-  Environment environment;    ///< no pixels: none
+  Environment environment;        ///< no pixels: none
 
   /// Uploads everything; the scene lives as long as this object.
   [[nodiscard]] uint64_t address() {
