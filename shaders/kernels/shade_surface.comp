@@ -20,9 +20,9 @@
 
 // A light's contribution at the surface, put up for the visibility test.
 void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
-                       const Frame frame, const vec3 woLocal, const SampleKey key, const uint pair, const uint slot,
-                       const vec3 beta) {
-  const LightSample light = sampleLight(scene, surface.p, sampleBits2d(key, pair + 1u), sample2d(key, pair));
+                       const Frame frame, const vec3 woLocal, const LightReceiver receiver, const SampleKey key,
+                       const uint pair, const uint slot, const vec3 beta) {
+  const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
   if (wiLocal.z <= 0.0 || dot(surface.ng, light.wi) <= 0.0) return;
@@ -57,16 +57,19 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
 }
 
 // Radiance that the surface itself sends towards wo, weighted against light sampling.
-// @param travelled  from the last scattering to the ray's origin
-vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState ray, const float travelled,
-                const PathState path) {
+vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState ray, const PathState path,
+                const uint slot) {
   if (!kHasEmissiveTriangles) return vec3(0.0);
   const vec3 Le = emittedRadiance(scene, surface);
   if (all(equal(Le, vec3(0.0)))) return vec3(0.0);
   float pdfLight = 0.0;
   if (path.pdfSolidAngle > 0.0) {
+    // Boundaries that do nothing may lie between the last scattering and the ray's origin.
+    const float travelled = kHasVolumes ? MediaRef(pc.media).items[slot].travelled : 0.0;
+    LightReceiver receiver = LightReceiver(ray.origin, vec3(0.0));
+    if (keepsReceivers()) receiver = ReceiverRef(pc.receivers).items[slot];
     pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)),
-                                    distance(surface.p, ray.origin) + travelled);
+                                    distance(surface.p, ray.origin) + travelled, receiver);
   }
   return Le * emissionWeight(path.pdfSolidAngle, pdfLight);
 }
@@ -129,8 +132,7 @@ void main() {
     path.radiance += path.beta * material.baseColor;
     alive = false;
   } else {
-    path.radiance +=
-        path.beta * emissionAt(scene, surface, ray, kHasVolumes ? MediaRef(pc.media).items[slot].travelled : 0.0, path);
+    path.radiance += path.beta * emissionAt(scene, surface, ray, path, slot);
   }
   if (alive) {
     const Frame frame = frameFromNormal(ns);
@@ -138,7 +140,9 @@ void main() {
     const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
-      sampleDirectLight(scene, surface, material, frame, woLocal, key, pair, slot, path.beta);
+      const LightReceiver receiver = LightReceiver(surface.p, ns);
+      if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
+      sampleDirectLight(scene, surface, material, frame, woLocal, receiver, key, pair, slot, path.beta);
     }
     alive = continuePath(scene, surface, material, frame, woLocal, key, pair, slot, path);
   }

@@ -17,6 +17,9 @@ const float kRouletteMaxSurvival = 0.999;
 
 const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
 
+// Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
+bool keepsReceivers() { return kHasLightTree && kHasEmissiveTriangles && pc.receivers != 0ul; }
+
 /// Russian roulette after a scattering. False: the path ends; else its throughput makes up for those that did.
 ///
 /// @param power  probability of survival before it is limited

@@ -13,6 +13,7 @@ namespace isophote {
 /// What some scenes do without.
 struct PathPoolParts {
   bool shadows = true;
+  bool receivers = true;
   bool media = true;           ///< state of volumes
   bool scatteringMedia = true; ///< their queue
 };
@@ -23,10 +24,11 @@ struct PathPool {
   gpu::Buffer rays;
   gpu::Buffer hits;
   gpu::Buffer paths;
-  gpu::Buffer shadows; ///< null where no light is sampled
-  gpu::Buffer media;   ///< MediaState; null without volumes
-  gpu::Buffer wave;    ///< WaveState
-  gpu::Buffer render;  ///< RenderView
+  gpu::Buffer shadows;   ///< null where no light is sampled
+  gpu::Buffer receivers; ///< null where the choice of a light does not depend on them
+  gpu::Buffer media;     ///< MediaState; null without volumes
+  gpu::Buffer wave;      ///< WaveState
+  gpu::Buffer render;    ///< RenderView
   gpu::Buffer filterTable;
   gpu::Buffer readback; ///< WaveState on the host, copied at the end of each submit
 

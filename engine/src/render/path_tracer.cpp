@@ -85,6 +85,11 @@ struct PathTracer::Impl {
     const bool workLeft = accepting && last.nextWork < workEnd;
     return !workLeft && last.counts[gpu::kQueueFree] == pool->capacity;
   }
+  /// Whether the weight of emission that a path finds depends on where light was sampled before.
+  [[nodiscard]] bool keepsReceivers() const {
+    return scene.features().has(Feature::kHasLightTree) && scene.features().has(Feature::kHasEmissiveTriangles) &&
+           estimator.lightSelection == LightSelection::Bvh && estimator.lightSampling != LightSampling::BsdfOnly;
+  }
   [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const;
 };
 
@@ -110,6 +115,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
     pool.emplace(device, paths,
                  PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                               .receivers = keepsReceivers(),
                                .media = features.has(Feature::kHasVolumes),
                                .scatteringMedia = kernels->shadeMedium.has_value()});
     const std::vector<float> filter = filterTable(estimator.filter);
@@ -179,6 +185,7 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .hits = pool->hits.address(),
           .paths = pool->paths.address(),
           .shadows = pool->shadows.address(),
+          .receivers = pool->receivers.address(),
           .media = pool->media.address(),
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,
