@@ -34,7 +34,8 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const LightSample light = sampleLight(scene, surface.p, sampleBits2d(key, pair + 1u), sample2d(key, pair));
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
-  if (wiLocal.z <= 0.0 || dot(surface.ng, light.wi) <= 0.0) return;
+  // Both normals must agree on the side.
+  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
   const BsdfValue bsdf = evaluateBsdf(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
@@ -56,6 +57,17 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   pushSlot(kQueueShadow, slot);
 }
 
+// Squared index of the medium a path enters, over that at the camera; its state follows.
+float etaScaleBehind(const uint slot, const float eta) {
+  InteriorRef interiors = InteriorRef(pc.interiors);
+  float scale = interiors.items[slot].etaScale;
+  if (eta != 1.0) {
+    scale *= eta * eta;
+    interiors.items[slot].etaScale = scale;
+  }
+  return scale;
+}
+
 // Continues the path by a BSDF sample; false where it ends.
 bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material, const Frame frame,
                   const vec3 woLocal, const SampleKey key, const uint pair, const uint slot, inout PathState path) {
@@ -63,12 +75,14 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
   const BsdfSample bsdf = sampleBsdf(scene, material.bsdf, woLocal, choice.x, sample2d(key, pair + 2u));
   if (!bsdf.valid) return false;
   const vec3 wi = toWorld(frame, bsdf.wiLocal);
-  if (dot(surface.ng, wi) <= 0.0) return false;
+  if (bsdf.wiLocal.z * dot(surface.ng, wi) <= 0.0) return false;
   path.beta *= bsdf.weight;
   path.depth += 1u;
   float brightest = max(path.beta.x, max(path.beta.y, path.beta.z));
+  float power = brightest; // without the squared indices of radiance, which refraction back out will undo
+  if (kHasTransmission) power *= etaScaleBehind(slot, bsdf.eta);
   if (kRussianRoulette == 1u && path.depth >= kRouletteDepth) {
-    const float survival = min(brightest, kRouletteMaxSurvival);
+    const float survival = min(power, kRouletteMaxSurvival);
     if (choice.y >= survival) return false;
     path.beta /= survival;
     brightest /= survival;

@@ -105,7 +105,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
-    pool.emplace(device, paths, kernels->intersectShadow.has_value());
+    pool.emplace(device, paths, kernels->intersectShadow.has_value(), features.has(Feature::kHasTransmission));
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
@@ -156,6 +156,7 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .hits = pool->hits.address(),
           .paths = pool->paths.address(),
           .shadows = pool->shadows.address(),
+          .interiors = pool->interiors.address(),
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,
           .prepare = prepare,
