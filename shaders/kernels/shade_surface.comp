@@ -25,6 +25,10 @@ const uint kVertexPairs = 4u;
 const uint kRouletteDepth = 3u;
 const float kRouletteMaxSurvival = 0.999;
 
+// Shadow rays end this share of the way to the light: a light in a coordinate plane has no error to be offset by, and t
+// is rounded. 16 roundings; measured: without it such a light shadowed a third of its own samples.
+const float kBeforeLight = 1.0 - 9.5367431640625e-7;
+
 const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
 
 // A light's contribution at the surface, put up for the visibility test.
@@ -51,7 +55,7 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
     const vec3 target =
         light.delta ? light.point : offsetRayOrigin(light.point, light.pointError, light.ngLight, -light.wi);
     direction = target - origin; // not normalised: t runs from 0 to 1
-    tMax = 1.0;
+    tMax = kBeforeLight;
   }
   ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
   pushSlot(kQueueShadow, slot);
