@@ -1,5 +1,5 @@
-// The glTF 2.0 metallic-roughness model with transmission, made energy conserving and reciprocal. Formulas:
-// docs/bsdf.md.
+// The base of a surface: the glTF 2.0 metallic-roughness model with transmission, made energy conserving and
+// reciprocal. Formulas: docs/bsdf.md.
 //
 // Directions are unit and in the local shading frame, z the shading normal on wo's side; wi.z < 0: transmitted.
 #ifndef ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
@@ -155,7 +155,7 @@ float facetProbability(const MetallicRoughness m, const vec2 albedo) {
 BsdfValue noScattering() { return BsdfValue(vec3(0.0), 0.0); }
 
 // The diffuse lobe and the reflection by facets. The table's albedo at wo and the choice's probability are those that
-// sampleBsdf knows already.
+// sampleBase knows already.
 BsdfValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, const vec2 albedo,
                              const float probability, const vec3 woLocal, const vec3 wiLocal) {
   const float alpha = albedoAlpha(m);
@@ -204,7 +204,7 @@ BsdfValue evaluateTransmission(const MetallicRoughness m, const float probabilit
 
 /// Returns f |cos wi| and the sampling density of the continuous lobes of both sides; zeros where wo is below the
 /// surface.
-BsdfValue evaluateBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
+BsdfValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
   const bool transmitted = kHasTransmission && wiLocal.z < 0.0;
   if (min(woLocal.z, transmitted ? -wiLocal.z : wiLocal.z) < kMinCosine) return noScattering();
   if (kHasSpecular) {
@@ -215,16 +215,6 @@ BsdfValue evaluateBsdf(const SceneRef scene, const MetallicRoughness m, const ve
   }
   const float density = kInvPi * wiLocal.z;
   return BsdfValue(m.baseColor * (m.diffuse * density), density);
-}
-
-/// Returns f |cos wi| of the continuous lobes.
-vec3 evalBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
-  return evaluateBsdf(scene, m, woLocal, wiLocal).fCos;
-}
-
-/// Returns the density of sampleBsdf's continuous lobes, per steradian of wi, lobe probabilities included.
-float pdfBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
-  return evaluateBsdf(scene, m, woLocal, wiLocal).pdfSolidAngle;
 }
 
 BsdfSample absorbed() { return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0); }
@@ -260,12 +250,12 @@ BsdfSample sampleTransmission(const MetallicRoughness m, const float probability
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
-BsdfSample sampleBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const float uLobe,
+BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const float uLobe,
                       const vec2 u) {
   if (woLocal.z < kMinCosine) return absorbed();
   if (!kHasSpecular) {
     const vec3 wi = sampleCosineHemisphere(u);
-    return finishSample(wi, evaluateBsdf(scene, m, woLocal, wi), 1.0);
+    return finishSample(wi, evaluateBase(scene, m, woLocal, wi), 1.0);
   }
   const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
   const float probability = facetProbability(m, albedo);

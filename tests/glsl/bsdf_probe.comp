@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/surface_bsdf.glsl"
 #include "glsl/bsdf_case.h"
 #define PROBE_INPUT BsdfCase
 #define PROBE_OUTPUT BsdfResult
@@ -8,10 +8,11 @@
 
 BsdfResult probe(const BsdfCase c) {
   SceneRef scene = SceneRef(pc.extra);
-  MetallicRoughness m = metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
+  SurfaceBsdf m;
+  m.base = metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
   const bool thinWalled = c.thinWalled != 0u;
   if (c.transmission > 0.0) {
-    setTransmission(m, c.transmission, relativeIor(c.ior, thinWalled || c.backFace == 0u), thinWalled);
+    setTransmission(m.base, c.transmission, relativeIor(c.ior, thinWalled || c.backFace == 0u), thinWalled);
   }
   BsdfResult result;
   result.fCos = evalBsdf(scene, m, c.wo, c.wi);
