@@ -52,9 +52,6 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }
-  else {
-    material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
-  }
   return material;
 }
 
