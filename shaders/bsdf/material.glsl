@@ -24,9 +24,20 @@ vec4 materialTexel(const SceneRef scene, const SurfaceHit surface, const Geometr
   return readSlot(scene, geometry, surface.primitiveIndex, surface.barycentrics, slot, vec4(1.0));
 }
 
+/// Index behind a surface over the index in front of it, where the place outside is filled with air.
+/// @return 0 stands for infinity as in KHR_materials_ior
+float etaInAir(const SceneRef scene, const SurfaceHit surface) {
+  MaterialRef materials = MaterialRef(scene.view.materials);
+  const float ior = materials.items[surface.material].ior;
+  const bool boundary = (materials.items[surface.material].flags & kMaterialVolume) != 0u;
+  return relativeIor(ior, surface.frontFace || !boundary || ior < 1.0);
+}
+
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
-/// B, specular A. Base color above 1, which float vertex colors can give, is cut to 1 where it is a reflectance.
-SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
+/// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
+/// reflectance.
+/// @param eta  index behind the surface over the index in front of it, as etaInAir has it in air
+SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const float eta) {
   const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
   const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
   SurfaceMaterial material;
@@ -39,8 +50,14 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
     const float specular = record.specular * materialTexel(scene, surface, geometry, record.specularSlot).a;
     const vec3 specularColor =
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
-    material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g,
-                                           record.ior, specular, specularColor);
+    material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g, eta,
+                                           specular, specularColor);
+    if (kHasTransmission && record.ior >= 1.0) {
+      const float transmission =
+          record.transmission * materialTexel(scene, surface, geometry, record.transmissionSlot).r;
+      const bool thinWalled = record.thickness == 0.0;
+      setTransmission(material.bsdf.base, transmission, eta, thinWalled);
+    }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }

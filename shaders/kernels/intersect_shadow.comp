@@ -17,7 +17,7 @@ vec3 shadowTransmittance(const SceneRef scene, const ShadowState shadow, MediumS
   vec3 left = vec3(1.0);
   vec3 origin = shadow.origin;
   vec3 direction = shadow.direction;
-  const vec3 target = shadow.origin + shadow.direction; // where tMax = 1
+  const vec3 target = shadow.origin + shadow.direction; // of bounded rays, whose t runs to almost 1
   const bool bounded = shadow.tMax < kRayInfinity;
   for (uint i = 0u; i < kMostBoundaries; ++i) {
     const RayHit hit = traceClosest(scene, origin, direction, 0.0, shadow.tMax, key);

@@ -55,8 +55,9 @@ bool scatter(const SceneRef scene, const vec3 p, const vec3 wo, const float g, c
   const vec3 wi = sampleHenyeyGreenstein(wo, g, sample2d(key, pair + 2u));
   path.depth += 1u;
   path.pdfSolidAngle = evalHenyeyGreenstein(wo, wi, g);
-  const float brightest = max(path.beta.x, max(path.beta.y, path.beta.z));
-  if (!survivesRoulette(brightest, sample2d(key, pair + 3u).y, path)) return false;
+  float power = max(path.beta.x, max(path.beta.y, path.beta.z));
+  if (kHasTransmission) power *= InteriorRef(pc.interiors).items[slot].etaScale;
+  if (!survivesRoulette(power, sample2d(key, pair + 3u).y, path)) return false;
   RayRef(pc.rays).items[slot] = RayState(p, 0.0, wi, kRayInfinity);
   MediaRef(pc.media).items[slot].travelled = 0.0;
   return true;

@@ -20,37 +20,57 @@
 
 // A light's contribution at the surface, put up for the visibility test.
 void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
-                       const Frame frame, const vec3 woLocal, const LightReceiver receiver, const SampleKey key,
-                       const uint pair, const uint slot, const vec3 beta) {
+                       const Frame frame, const vec3 woLocal, const MediumCrossing crossing,
+                       const LightReceiver receiver, const SampleKey key, const uint pair, const uint slot,
+                       const vec3 beta) {
   const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
-  if (wiLocal.z <= 0.0 || dot(surface.ng, light.wi) <= 0.0) return;
+  // Both normals must agree on the side.
+  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
   const BsdfValue bsdf = evaluateBsdf(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
 
-  if (kHasVolumes) MediaRef(pc.media).items[slot].shadow = MediaRef(pc.media).items[slot].path;
+  if (kHasVolumes) MediaRef(pc.media).items[slot].shadow = wiLocal.z < 0.0 ? crossing.across : crossing.here;
   const vec3 origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, light.wi);
   queueShadowRay(slot, origin, light, contribution);
 }
 
+// Squared index of the medium a path enters, over that at the camera; its state follows.
+float etaScaleBehind(const uint slot, const float eta) {
+  InteriorRef interiors = InteriorRef(pc.interiors);
+  float scale = interiors.items[slot].etaScale;
+  if (eta != 1.0) {
+    scale *= eta * eta;
+    interiors.items[slot].etaScale = scale;
+  }
+  return scale;
+}
+
 // Continues the path by a BSDF sample; false where it ends.
 bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material, const Frame frame,
-                  const vec3 woLocal, const SampleKey key, const uint pair, const uint slot, inout PathState path) {
+                  const vec3 woLocal, const MediumCrossing crossing, const SampleKey key, const uint pair,
+                  const uint slot, inout PathState path) {
   const vec2 choice = sample2d(key, pair + 3u);
   const BsdfSample bsdf = sampleBsdf(scene, material.bsdf, woLocal, choice.x, sample2d(key, pair + 2u));
   if (!bsdf.valid) return false;
   const vec3 wi = toWorld(frame, bsdf.wiLocal);
-  if (dot(surface.ng, wi) <= 0.0) return false;
+  if (bsdf.wiLocal.z * dot(surface.ng, wi) <= 0.0) return false;
   path.beta *= bsdf.weight;
   path.depth += 1u;
   const float brightest = max(path.beta.x, max(path.beta.y, path.beta.z));
-  if (!(brightest > 0.0) || !survivesRoulette(brightest, choice.y, path)) return false;
+  if (!(brightest > 0.0)) return false;
+  float power = brightest; // without the squared indices of radiance, which refraction back out will undo
+  if (kHasTransmission) power *= etaScaleBehind(slot, bsdf.eta);
+  if (!survivesRoulette(power, choice.y, path)) return false;
   path.pdfSolidAngle = bsdf.delta ? 0.0 : bsdf.pdfSolidAngle;
-  if (kHasVolumes) MediaRef(pc.media).items[slot].travelled = 0.0;
+  if (kHasVolumes) {
+    MediaRef(pc.media).items[slot].travelled = 0.0;
+    if (bsdf.wiLocal.z < 0.0) MediaRef(pc.media).items[slot].path = crossing.across;
+  }
   RayRef(pc.rays).items[slot] =
       RayState(offsetRayOrigin(surface.p, surface.pError, surface.ng, wi), 0.0, wi, kRayInfinity);
   return true;
@@ -84,10 +104,26 @@ void absorbAlongRay(const SceneRef scene, const uint slot, inout PathState path)
   if (!scatters(medium)) path.beta *= transmittance(medium.extinction, media.items[slot].hitDistance);
 }
 
+// The media on the other side of the surface; where it bounds none, those on this side.
+MediumCrossing crossSurface(const SceneRef scene, const SurfaceHit surface, const uint slot) {
+  const MediumStack here = MediaRef(pc.media).items[slot].path;
+  if (!isVolumeBoundary(scene, surface.material)) return noCrossing(scene, here);
+  if (surface.frontFace && isFull(here)) countStatus(kStatusMediumOverflow);
+  return crossBoundary(scene, here, surface.material, surface.frontFace);
+}
+
+// Index behind the surface over that in front: of a boundary those of the two media, else the material's own behind.
+float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing) {
+  const float ior = MaterialRef(scene.view.materials).items[surface.material].ior;
+  if (ior < 1.0) return ior;
+  return isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing)
+                                                   : ior / mediumIor(scene, crossing.before);
+}
+
 // Sends the path straight on, where the surface is a boundary that does nothing.
 bool passesInvisibly(const SceneRef scene, const SurfaceHit surface, const RayState ray, const MediumCrossing crossing,
                      const uint slot) {
-  if (!isInvisible(scene, crossing, surface.material)) return false;
+  if (!isVolumeBoundary(scene, surface.material) || !isInvisible(scene, crossing, surface.material)) return false;
   MediaRef media = MediaRef(pc.media);
   const float hitDistance = media.items[slot].hitDistance;
   media.items[slot].path = crossing.across;
@@ -108,20 +144,18 @@ void main() {
   const vec3 wo = -ray.direction;
 
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, wo);
+  MediumCrossing crossing;
   if (kHasVolumes) {
     absorbAlongRay(scene, slot, path);
-    if (isVolumeBoundary(scene, surface.material)) {
-      const MediumStack stack = MediaRef(pc.media).items[slot].path;
-      if (surface.frontFace && isFull(stack)) countStatus(kStatusMediumOverflow);
-      const MediumCrossing crossing = crossBoundary(scene, stack, surface.material, surface.frontFace);
-      if (passesInvisibly(scene, surface, ray, crossing, slot)) {
-        PathRef(pc.paths).items[slot] = path;
-        pushSlot(kQueueRay, slot);
-        return;
-      }
+    crossing = crossSurface(scene, surface, slot);
+    if (passesInvisibly(scene, surface, ray, crossing, slot)) {
+      PathRef(pc.paths).items[slot] = path;
+      pushSlot(kQueueRay, slot);
+      return;
     }
   }
-  const SurfaceMaterial material = materialAt(scene, surface);
+  const SurfaceMaterial material =
+      materialAt(scene, surface, kHasVolumes ? etaAt(scene, surface, crossing) : etaInAir(scene, surface));
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {
     path.hit = 1u;
@@ -140,11 +174,12 @@ void main() {
     const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
-      const LightReceiver receiver = LightReceiver(surface.p, ns);
+      // Lights on the far side of glass are sampled too.
+      const LightReceiver receiver = LightReceiver(surface.p, transmits(material.bsdf) ? vec3(0.0) : ns);
       if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
-      sampleDirectLight(scene, surface, material, frame, woLocal, receiver, key, pair, slot, path.beta);
+      sampleDirectLight(scene, surface, material, frame, woLocal, crossing, receiver, key, pair, slot, path.beta);
     }
-    alive = continuePath(scene, surface, material, frame, woLocal, key, pair, slot, path);
+    alive = continuePath(scene, surface, material, frame, woLocal, crossing, key, pair, slot, path);
   }
   PathRef(pc.paths).items[slot] = path;
   if (alive) {

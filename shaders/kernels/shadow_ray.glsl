@@ -6,6 +6,10 @@
 #include "kernels/wavefront.glsl"
 #include "light/light_sample.glsl"
 
+// Shadow rays end this share of the way to the light: a light in a coordinate plane has no error to be offset by, and t
+// is rounded. 16 roundings; measured: without it such a light shadowed a third of its own samples.
+const float kBeforeLight = 1.0 - 9.5367431640625e-7;
+
 /// Queues the ray from `origin` to a light sample.
 ///
 /// @param origin        off the surface that it leaves
@@ -19,7 +23,7 @@ void queueShadowRay(const uint slot, const vec3 origin, const LightSample light,
     const vec3 target =
         light.delta ? light.point : offsetRayOrigin(light.point, light.pointError, light.ngLight, -light.wi);
     direction = target - origin; // not normalised: t runs from 0 to 1
-    tMax = 1.0;
+    tMax = kBeforeLight;
   }
   ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
   pushSlot(kQueueShadow, slot);

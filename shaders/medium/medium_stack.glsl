@@ -66,14 +66,22 @@ MediumStack leaveMedium(MediumStack stack, const uint material) {
 struct MediumCrossing {
   uint before;        // the materials whose media lie on the path's side and beyond; kInvalidIndex: none
   uint beyond;        // equal: the face lies inside another medium and does nothing
+  MediumStack here;   // the media on the path's side
   MediumStack across; // the media beyond
 };
+
+/// A surface that bounds no medium.
+MediumCrossing noCrossing(const SceneRef scene, const MediumStack stack) {
+  const uint material = currentMedium(scene, stack);
+  return MediumCrossing(material, material, stack, stack);
+}
 
 /// @param stack     on the path's side
 /// @param entering  the path meets the front of the face
 MediumCrossing crossBoundary(const SceneRef scene, const MediumStack stack, const uint material, const bool entering) {
   MediumCrossing crossing;
   crossing.before = currentMedium(scene, stack);
+  crossing.here = stack;
   crossing.across = entering ? enterMedium(stack, material) : leaveMedium(stack, material);
   crossing.beyond = currentMedium(scene, crossing.across);
   // Left but never entered, through a hole in the mesh or where the camera's media are unknown: it was there all along.
@@ -81,13 +89,13 @@ MediumCrossing crossBoundary(const SceneRef scene, const MediumStack stack, cons
   return crossing;
 }
 
-/// Index of refraction of a material's medium; 1 of none.
+/// Index of refraction of a material's medium; 1 of none, and of those that nothing enters (index 0, for infinity).
 float mediumIor(const SceneRef scene, const uint material) {
-  return material == kInvalidIndex ? 1.0 : MaterialRef(scene.view.materials).items[material].ior;
+  return material == kInvalidIndex ? 1.0 : max(MaterialRef(scene.view.materials).items[material].ior, 1.0);
 }
 
 /// Index beyond a boundary over the index before it.
-float relativeIor(const SceneRef scene, const MediumCrossing crossing) {
+float etaAcross(const SceneRef scene, const MediumCrossing crossing) {
   return mediumIor(scene, crossing.beyond) / mediumIor(scene, crossing.before);
 }
 
@@ -96,7 +104,7 @@ float relativeIor(const SceneRef scene, const MediumCrossing crossing) {
 bool isInvisible(const SceneRef scene, const MediumCrossing crossing, const uint material) {
   if (crossing.before == crossing.beyond) return true;
   const uint flags = MaterialRef(scene.view.materials).items[material].flags;
-  return (flags & kMaterialClear) != 0u && relativeIor(scene, crossing) == 1.0;
+  return (flags & kMaterialClear) != 0u && etaAcross(scene, crossing) == 1.0;
 }
 
 bool isVolumeBoundary(const SceneRef scene, const uint material) {

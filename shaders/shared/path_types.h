@@ -59,6 +59,11 @@ struct MediaState {
   uint segments;      // free paths sampled so far
 };
 
+// Where a path is, in scenes with transmission.
+struct InteriorState {
+  float etaScale; // squared index of the path's medium over that at the camera
+};
+
 ISOPHOTE_CONST uint kQueueFree = 0u;
 ISOPHOTE_CONST uint kQueueRay = 1u;
 ISOPHOTE_CONST uint kQueueSurface = 2u;
@@ -146,6 +151,7 @@ struct KernelArgs {
   Address hits;
   Address paths;
   Address shadows;
+  Address interiors; // InteriorState[capacity], 0 where nothing transmits
   Address receivers; // LightReceiver that sampled a light last, for the weight of what its BSDF ray finds; 0: not kept
   Address media; // MediaState[capacity], 0 without volumes
   uint capacity;

@@ -17,6 +17,8 @@ PathPool::PathPool(const Device& device, uint32_t pathCount, const PathPoolParts
       paths(device, uint64_t{pathCount} * sizeof(gpu::PathState), Memory::Device, "pool.paths"),
       shadows(device, parts.shadows ? uint64_t{pathCount} * sizeof(gpu::ShadowState) : 0, Memory::Device,
               "pool.shadows"),
+      interiors(device, parts.interiors ? uint64_t{pathCount} * sizeof(gpu::InteriorState) : 0, Memory::Device,
+                "pool.interiors"),
       receivers(device, parts.receivers ? uint64_t{pathCount} * sizeof(gpu::LightReceiver) : 0, Memory::Device,
                 "pool.receivers"),
       media(device, parts.media ? uint64_t{pathCount} * sizeof(gpu::MediaState) : 0, Memory::Device, "pool.media"),
@@ -38,8 +40,8 @@ void PathPool::reset(const Device& device) const {
 
 std::vector<BufferUse> PathPool::buffers() const {
   std::vector<BufferUse> uses;
-  for (const Buffer* buffer :
-       {&queues, &rays, &hits, &paths, &shadows, &receivers, &media, &wave, &render, &filterTable, &readback}) {
+  for (const Buffer* buffer : {&queues, &rays, &hits, &paths, &shadows, &interiors, &receivers, &media, &wave, &render,
+                               &filterTable, &readback}) {
     if (buffer->bytes() != 0) uses.push_back({buffer->name(), buffer->bytes()});
   }
   return uses;
@@ -52,8 +54,8 @@ uint64_t PathPool::bytes() const {
 }
 
 uint64_t PathPool::bytesPerPath() const {
-  return (queues.bytes() + rays.bytes() + hits.bytes() + paths.bytes() + shadows.bytes() + receivers.bytes() +
-          media.bytes()) /
+  return (queues.bytes() + rays.bytes() + hits.bytes() + paths.bytes() + shadows.bytes() + interiors.bytes() +
+          receivers.bytes() + media.bytes()) /
          capacity;
 }
 

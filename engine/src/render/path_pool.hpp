@@ -10,12 +10,13 @@
 
 namespace isophote {
 
-/// What some scenes do without.
+/// The state that only some scenes need.
 struct PathPoolParts {
-  bool shadows = true;
-  bool receivers = true;
-  bool media = true;           ///< state of volumes
-  bool scatteringMedia = true; ///< their queue
+  bool shadows = false;
+  bool interiors = false;
+  bool receivers = false;
+  bool media = false;           ///< of volumes
+  bool scatteringMedia = false; ///< their queue
 };
 
 struct PathPool {
@@ -25,6 +26,7 @@ struct PathPool {
   gpu::Buffer hits;
   gpu::Buffer paths;
   gpu::Buffer shadows;   ///< null where no light is sampled
+  gpu::Buffer interiors; ///< null where nothing transmits
   gpu::Buffer receivers; ///< null where the choice of a light does not depend on them
   gpu::Buffer media;     ///< MediaState; null without volumes
   gpu::Buffer wave;      ///< WaveState

@@ -115,6 +115,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
     pool.emplace(device, paths,
                  PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                               .interiors = features.has(Feature::kHasTransmission),
                                .receivers = keepsReceivers(),
                                .media = features.has(Feature::kHasVolumes),
                                .scatteringMedia = kernels->shadeMedium.has_value()});
@@ -185,6 +186,7 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .hits = pool->hits.address(),
           .paths = pool->paths.address(),
           .shadows = pool->shadows.address(),
+          .interiors = pool->interiors.address(),
           .receivers = pool->receivers.address(),
           .media = pool->media.address(),
           .capacity = pool->capacity,

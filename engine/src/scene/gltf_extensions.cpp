@@ -12,9 +12,10 @@
 namespace isophote::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 9> kModeled{
+constexpr std::array<std::string_view, 12> kModeled{
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_unlit",
+    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_materials_volume",   "KHR_materials_volume_scatter",
     "KHR_mesh_quantization",   "KHR_node_visibility",    "KHR_texture_transform"};
 
 /// Extensions that carry a plain glTF fallback beside their own data; the fallback is used.
