@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "oracle/bsdf_fresnel.hpp"
 #include "oracle/medium.hpp"
 #include "support/gpu_device.hpp"
 #include "support/render.hpp"
@@ -245,6 +246,72 @@ TEST(RenderMedia, ShadowRaysInsideAVolumeAreAbsorbed) {
   EXPECT_NEAR(firstValue(image, "R"), 0.8, 1e-5) << "half a unit down and half a unit up";
   EXPECT_NEAR(firstValue(image, "G"), 0.5, 1e-5);
   EXPECT_NEAR(firstValue(image, "B"), 1, 1e-5);
+}
+
+// Slabs without end over an emitter of radiance 1: the material of each, and its faces y0 < y1.
+struct Slab {
+  double y0, y1, ior;
+  float priority;
+};
+
+Scene slabsOverEmitter(const std::vector<Slab>& slabs) {
+  Scene scene;
+  constexpr double kHalf = 1e3;
+  addPrimitive(scene, quad({-kHalf, 0, kHalf}, {2 * kHalf, 0, 0}, {0, 0, -2 * kHalf},
+                           addMaterial(scene, emitter(glm::vec3(1)))));
+  for (size_t i = 0; i < slabs.size(); ++i) {
+    Material material = glass(0, static_cast<float>(slabs[i].ior));
+    material.volume.priority = slabs[i].priority;
+    const double half = kHalf - static_cast<double>(i); // sides far away, one inside the other
+    addPrimitive(scene,
+                 box({-half, slabs[i].y0, -half}, {half, slabs[i].y1, half}, false, addMaterial(scene, material)));
+  }
+  return scene;
+}
+
+// Of a stack of interfaces between lossless media, all orders of reflection summed: R / (1 - R) adds up.
+double stackTransmittance(const std::vector<double>& iors, double degrees) {
+  const double sine = std::sin(degrees * std::numbers::pi / 180);
+  double sum = 0;
+  for (size_t i = 0; i + 1 < iors.size(); ++i) {
+    const double cosine = std::sqrt(1 - sine * sine / (iors[i] * iors[i]));
+    const double reflected = oracle::fresnelDielectric(cosine, iors[i + 1] / iors[i]);
+    sum += reflected / (1 - reflected);
+  }
+  return 1 / (1 + sum);
+}
+
+void expectStack(const std::vector<Slab>& slabs, const std::vector<double>& iors) {
+  for (const double degrees : {0.0, 60.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const glm::dvec3 top(0, slabs[0].y1, 0);
+    const Camera camera =
+        orthographicLookAt(top + 3.0 * glm::dvec3(std::sin(angle), std::cos(angle), 1e-3), top, 0.5, 0.5);
+    const Image image = renderImage(slabsOverEmitter(slabs), camera, 16, 16, 256);
+    EXPECT_TRUE(pixelMeanIs(image, "G", stackTransmittance(iors, degrees), 0.02)) << degrees;
+  }
+}
+
+TEST(RenderMedia, NestedDielectricsRefractFromEachIntoTheNext) {
+  expectStack({{1, 7, 1.5, 0}, {2, 6, 1.333, 0}, {3, 5, 1.31, 0}}, {1, 1.5, 1.333, 1.31, 1.333, 1.5, 1});
+}
+
+// Diamond reaching into water: the overlap is diamond's or water's, and the scene is that of the exact boundaries.
+TEST(RenderMedia, OverlappingDielectricsActAsTheirExactBoundaries) {
+  expectStack({{2, 4, 1.333, 0}, {1, 3, 2.4, 1}}, {1, 1.333, 2.4, 1});
+  expectStack({{2, 4, 1.333, 1}, {1, 3, 2.4, 0}}, {1, 1.333, 2.4, 1});
+  // The one within the other, outranked: it is not there at all.
+  expectStack({{1, 4, 1.333, 1}, {2, 3, 2.4, 0}}, {1, 1.333, 1});
+}
+
+// Milk: lossless scattering behind a refracting boundary, where paths are trapped and leave by roulette or in the end.
+TEST(RenderMedia, MilkInAWhiteWorldIsWhite) {
+  Scene scene = whiteWorld();
+  Material milk = scattering(clearVolume({0.4f, 0.3f, 0.2f}), glm::vec3(1), 0.5f);
+  milk.ior = 1.33f;
+  addPrimitive(scene, sphere(1, 8, false, false, addMaterial(scene, milk)));
+  const Image image = renderImage(scene, alongZ(3), kSize, kSize, 256);
+  for (const char* channel : {"R", "G", "B"}) EXPECT_TRUE(pixelMeanIs(image, channel, 1, 0.05)) << channel;
 }
 
 TEST(RenderMedia, SpecializedKernelsGiveTheSameBits) {
