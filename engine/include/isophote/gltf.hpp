@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "isophote/scene.hpp"
 
@@ -11,6 +12,7 @@ namespace isophote {
 
 struct LoadOptions {
   std::optional<uint32_t> scene;        ///< index; absent: the asset's default, else 0
+  std::optional<std::string> variant;   ///< name of a KHR_materials_variants variant; absent: the default materials
   bool allowExternal = false;           ///< let URIs leave the asset's folder
   uint64_t maxImagePixels = 1ull << 28; ///< per image, checked before decoding
   uint64_t maxBufferBytes = 8ull << 30; ///< all buffers together
@@ -18,7 +20,8 @@ struct LoadOptions {
 };
 
 /// Reads a .gltf or .glb file and validates every index, byte range and number in it.
-/// @throws SceneError (broken), UnsupportedError (unknown required extension), LimitError (too large)
+/// @throws SceneError (broken), UnsupportedError (unknown required extension), LimitError (too large), UsageError (no
+/// such variant)
 [[nodiscard]] Scene loadGltf(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// Reads an equirectangular Radiance .hdr or OpenEXR map into an Environment.
