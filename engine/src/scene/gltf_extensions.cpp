@@ -16,9 +16,17 @@ namespace isophote::gltf {
 namespace {
 
 constexpr std::string_view kModeled[] = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular",  "KHR_materials_unlit",   "KHR_materials_variants",          "KHR_mesh_quantization",
-    "KHR_node_visibility",     "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
 };
 
 /// Extensions that say nothing about an image.

@@ -200,12 +200,18 @@ const Shape kVolume = object({{"thicknessFactor", &kFloat},
 const Shape kVolumeScatter = object({{"multiscatterColor", &kFloat3}, {"scatterAnisotropy", &kFloat}});
 const Shape kDispersion = object({{"dispersion", &kFloat}});
 const Shape kUnlit = object({});
+const Shape kSpecularGlossiness = object({{"diffuseFactor", &kFloat4},
+                                          {"diffuseTexture", &kTextureInfo},
+                                          {"specularFactor", &kFloat3},
+                                          {"glossinessFactor", &kFloat},
+                                          {"specularGlossinessTexture", &kTextureInfo}});
 const Shape kMaterialExtensions = object({{"KHR_materials_anisotropy", &kAnisotropy},
                                           {"KHR_materials_clearcoat", &kClearcoat},
                                           {"KHR_materials_diffuse_transmission", &kDiffuseTransmission},
                                           {"KHR_materials_dispersion", &kDispersion},
                                           {"KHR_materials_emissive_strength", &kEmissiveStrength},
                                           {"KHR_materials_ior", &kIor},
+                                          {"KHR_materials_pbrSpecularGlossiness", &kSpecularGlossiness},
                                           {"KHR_materials_iridescence", &kIridescence},
                                           {"KHR_materials_sheen", &kSheen},
                                           {"KHR_materials_specular", &kSpecular},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "isophote/error.hpp"
+#include "scene/gltf_specular_glossiness.hpp"
 #include "scene/image_decode.hpp"
 #include "scene/uri.hpp"
 #include "scene/webp_decode.hpp"
@@ -73,6 +74,19 @@ int32_t Textures::use(uint32_t index, Scene& scene) {
   }
   textures_.emplace(index, result);
   return result;
+}
+
+int32_t Textures::useGlossiness(uint32_t index, float glossinessFactor, Scene& scene) {
+  const int32_t plain = use(index, scene);
+  if (plain == kNone) return kNone;
+  Texture texture = scene.textures[static_cast<size_t>(plain)];
+  const ImageData& image = scene.images[texture.image];
+  document_.claim(uint64_t{image.width} * image.height * 4, fmt::format("/textures/{}", index));
+  ImageData roughness = roughnessFromGlossiness(image, glossinessFactor);
+  texture.image = static_cast<uint32_t>(scene.images.size());
+  scene.images.push_back(std::move(roughness));
+  scene.textures.push_back(texture);
+  return static_cast<int32_t>(scene.textures.size() - 1);
 }
 
 std::optional<uint32_t> Textures::source(uint32_t index) const {
