@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "isophote/features.hpp"
+#include "isophote/gltf.hpp"
 #include "scene_source.hpp"
 #include "scene_summary.hpp"
 
@@ -101,7 +102,7 @@ Json infoJson(const InfoOptions& options, const Scene& scene) {
             {"texture_bytes", summary.textureBytes},
             {"environment_bytes", summary.environmentBytes},
             {"total_bytes", summary.totalBytes()}}},
-          {"variants", scene.variants},
+          {"variants", gltfVariants(options.scene)},
           {"extensions_used", scene.extensionsUsed},
           {"extensions_ignored", scene.extensionsIgnored},
           {"warnings", scene.warnings}};
@@ -128,7 +129,7 @@ void printText(const InfoOptions& options, const Scene& scene) {
     fmt::print("  camera {} '{}', {}\n", i, scene.cameras[i].name, orthographic ? "orthographic" : "perspective");
   }
   for (const PunctualLight& light : scene.lights) fmt::print("  {} light '{}'\n", kindName(light.kind), light.name);
-  for (const std::string& variant : scene.variants) fmt::print("  variant '{}'\n", variant);
+  for (const std::string& variant : gltfVariants(options.scene)) fmt::print("  variant '{}'\n", variant);
   if (scene.environment) fmt::print("  environment {} x {}\n", scene.environment->width, scene.environment->height);
   if (!hasLight(scene)) fmt::print("  no light: a render needs --env or --env-color\n");
   const Bounds bounds = worldBounds(scene);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "isophote/scene.hpp"
 
@@ -23,6 +24,10 @@ struct LoadOptions {
 /// @throws SceneError (broken), UnsupportedError (unknown required extension), LimitError (too large), UsageError (no
 /// such variant)
 [[nodiscard]] Scene loadGltf(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// The names that LoadOptions::variant chooses from, in the asset's order.
+/// @throws SceneError, UnsupportedError, LimitError
+[[nodiscard]] std::vector<std::string> gltfVariants(const std::filesystem::path& file);
 
 /// Reads an equirectangular Radiance .hdr or OpenEXR map into an Environment.
 /// NaN and negative pixels are set to 0, infinite ones to the largest finite value, each counted in a warning.

@@ -209,7 +209,6 @@ struct Scene {
   std::vector<Camera> cameras;
   std::optional<Environment> environment;
   std::vector<std::string> warnings; ///< one line each, once per cause
-  std::vector<std::string> variants; ///< names of the variants that LoadOptions::variant chooses from
   std::vector<std::string> extensionsUsed;
   std::vector<std::string> extensionsIgnored; ///< optional ones this build does not know
 };

@@ -57,7 +57,6 @@ Scene load(const std::filesystem::path& file, const LoadOptions& options) {
   gltf::Textures textures(document, buffers);
   gltf::MaterialTable materials(document, textures);
   const gltf::Variants variants(document);
-  scene.variants = variants.names();
   gltf::Meshes meshes(document, buffers, accessors, materials, variants);
   gltf::addInstances(document, accessors, graph, nodes, meshes, scene);
   addLightsAndCameras(document, nodes, scene);
@@ -69,6 +68,10 @@ Scene load(const std::filesystem::path& file, const LoadOptions& options) {
 }
 
 } // namespace
+
+std::vector<std::string> gltfVariants(const std::filesystem::path& file) {
+  return gltf::Variants(gltf::openDocument(file, {})).names();
+}
 
 Scene loadGltf(const std::filesystem::path& file, const LoadOptions& options) {
   try {
