@@ -22,6 +22,7 @@ constexpr std::string_view kModeled[] = {
     "KHR_materials_ior",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_variants",
     "KHR_mesh_quantization",
