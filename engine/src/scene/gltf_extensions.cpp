@@ -15,20 +15,22 @@
 namespace isophote::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 14> kModeled{"EXT_mesh_gpu_instancing",
-                                                    "KHR_lights_punctual",
-                                                    "KHR_materials_emissive_strength",
-                                                    "KHR_materials_ior",
-                                                    "KHR_materials_pbrSpecularGlossiness",
-                                                    "KHR_materials_specular",
-                                                    "KHR_materials_transmission",
-                                                    "KHR_materials_unlit",
-                                                    "KHR_materials_variants",
-                                                    "KHR_materials_volume",
-                                                    "KHR_materials_volume_scatter",
-                                                    "KHR_mesh_quantization",
-                                                    "KHR_node_visibility",
-                                                    "KHR_texture_transform"};
+constexpr std::string_view kModeled[] = {
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+};
 
 /// Extensions that say nothing about an image.
 constexpr std::string_view kWithoutEffect[] = {
