@@ -48,6 +48,7 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
       const bool thinWalled = record.thickness == 0.0;
       setTransmission(material.bsdf.base, transmission, relativeIor(record.ior, surface.frontFace || thinWalled),
                       thinWalled);
+      setGlassLoss(material.bsdf.base, record.glassLoss, surface.frontFace);
     }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));

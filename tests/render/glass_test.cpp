@@ -1,6 +1,7 @@
 // Transmission in whole paths: slabs with closed forms, furnaces, and the double-precision tracer.
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "support/render.hpp"
@@ -127,6 +128,34 @@ TEST(RenderGlass, LightIsFoundThroughRoughGlassByEveryTechnique) {
 TEST(RenderGlass, Test33InsideGlassAFurnaceShowsTheSquaredIndex) {
   const Camera inside = lookAt({0.1, 0.05, -0.1}, {0.5, 0.07, -0.12}, 0.5);
   EXPECT_TRUE(pixelMeanIs(renderImage(glassBoxInFurnace(glass(0)), inside, 16, 16, 256), "G", 2.25, 0.03));
+}
+
+// A row of flat-faced balls for each lossless material, roughness rising along it: every view of every facet is 1.
+TEST(RenderGlass, Test20LosslessMaterialsAreInvisibleInAFurnace) {
+  constexpr uint32_t kCell = 8;
+  const float roughnesses[] = {0, 0.05f, 0.2f, 0.5f, 1};
+  Scene scene;
+  scene.environment = constantEnvironment(glm::vec3(1));
+  for (uint32_t column = 0; column < 5; ++column) {
+    const float roughness = roughnesses[column];
+    const Material rows[] = {metal(glm::vec3(1), roughness), dielectric(glm::vec3(1), roughness), glass(roughness),
+                             thinGlass(roughness)};
+    for (uint32_t row = 0; row < 4; ++row)
+      addPrimitive(scene, sphere(1, 12, false, false, addMaterial(scene, rows[row])),
+                   glm::translate(glm::dmat4(1), glm::dvec3(2.0 * column - 4, 3 - 2.0 * row, 0)));
+  }
+  const Camera camera = orthographicLookAt({0, 0, 10}, {0, 0, 0}, 5, 4);
+  const Image image = renderImage(scene, camera, 5 * kCell, 4 * kCell, 256);
+  const std::vector<float> values = plane(image, "G");
+  for (uint32_t row = 0; row < 4; ++row) {
+    for (uint32_t column = 0; column < 5; ++column) {
+      Moments cell;
+      for (uint32_t i = 0; i < kCell * kCell; ++i)
+        cell.add(double(values[(row * kCell + i / kCell) * 5 * kCell + column * kCell + i % kCell]));
+      EXPECT_LT(cell.standardError(), 0.002) << row << ", roughness " << roughnesses[column];
+      EXPECT_NEAR(cell.mean(), 1, 0.01) << row << ", roughness " << roughnesses[column];
+    }
+  }
 }
 
 TEST(RenderGlass, SpecializedKernelsGiveTheBitsOfTheFullOnes) {
