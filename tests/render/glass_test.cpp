@@ -158,6 +158,53 @@ TEST(RenderGlass, Test20LosslessMaterialsAreInvisibleInAFurnace) {
   }
 }
 
+// KHR_materials_dispersion: each color is the render of a glass with its own index, (ior - 1) (1 -+ 0.025 dispersion)
+// + 1.
+TEST(RenderGlass, DispersionIsThreeMonochromeRenders) {
+  const auto scene = [](float ior, float dispersion) {
+    Scene result;
+    Material material = glass(0.2f, ior);
+    material.dispersion = dispersion;
+    addPrimitive(result, box({-0.5, 0.5, -0.5}, {0.5, 1, 0.5}, false, addMaterial(result, material)),
+                 glm::rotate(glm::dmat4(1), 0.5, glm::dvec3(0, 0, 1)));
+    addPrimitive(result, quad({-1, 0.05, 0.5}, {0.9, 0, 0}, {0, 0, -1}, addMaterial(result, emitter(glm::vec3(1)))));
+    return result;
+  };
+  const Camera camera = lookAt({0.2, 3, 0.5}, {-0.2, 0.7, 0}, 0.35);
+  constexpr float kDispersion = 8; // iors 1.4, 1.5, 1.6
+  const MeasuredImage dispersed = measured(renderImage(scene(1.5f, kDispersion), camera, 8, 8, 4096));
+  MeasuredImage expected = dispersed;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    const float ior = 1.5f + 0.1f * (static_cast<float>(channel) - 1);
+    const MeasuredImage mono = measured(
+        renderImage(scene(ior, 0), camera, 8, 8, 1024, {.estimator = {.filter = PixelFilter::Box, .seed = 7}}));
+    for (size_t i = 0; i < mono.pixels.size(); ++i) expected.pixels[i][channel] = mono.pixels[i][channel];
+  }
+  EXPECT_TRUE(sameImage(dispersed, expected, {.powerFloor = 0.03}));
+  const auto reference = oracle::renderReference(scene(1.5f, kDispersion), camera, 8, 8, 2048, {.seed = 3});
+  EXPECT_TRUE(sameImage(dispersed, measured(reference), {.powerFloor = 0.06}));
+}
+
+// A slab's shift grows with the index: an emitter's edge between the exits of red and blue is seen in one color.
+TEST(RenderGlass, DispersionBendsBlueMoreThanRed) {
+  Scene scene;
+  Material material = glass(0);
+  material.dispersion = 8;
+  addPrimitive(scene, box({-100, 0, -100}, {100, 1, 100}, false, addMaterial(scene, material)));
+  const auto exitAt = [](double ior) { return -std::tan(std::asin(std::sin(45 * kDegree) / ior)) - 1e-3; };
+  const double edge = 0.5 * (exitAt(1.5) + exitAt(1.6));
+  addPrimitive(scene, quad({edge - 1, -1e-3, 1}, {1, 0, 0}, {0, 0, -2}, addMaterial(scene, emitter(glm::vec3(1)))));
+  const Camera camera = orthographicLookAt({1, 2, 0}, {0, 1, 0}, 1e-6, 1e-6);
+  const Image image = renderImage(scene, camera, 4, 4, 256, {.estimator = {.filter = PixelFilter::Box, .maxDepth = 2}});
+  double red = 0, green = 0, blue = 0;
+  for (const float value : plane(image, "R")) red += double(value) / 16;
+  for (const float value : plane(image, "G")) green += double(value) / 16;
+  for (const float value : plane(image, "B")) blue += double(value) / 16;
+  EXPECT_NEAR(red, 0.9, 0.1); // further out along the ray: red bends least
+  EXPECT_NEAR(green, 0.9, 0.1);
+  EXPECT_EQ(blue, 0);
+}
+
 TEST(RenderGlass, SpecializedKernelsGiveTheBitsOfTheFullOnes) {
   Scene scene = glassBoxInFurnace(glass(0.3f));
   addPrimitive(scene, quad({-1, -0.6, 1}, {2, 0, 0}, {0, 0, -2}, addMaterial(scene, thinGlass(0))));

@@ -96,12 +96,16 @@ private:
     if (material.transmission.factor == 0 || material.volume.thickness == 0 || material.ior < 1 || smooth)
       return gpu::kInvalidIndex;
     const bool textured = material.metallicRoughnessTexture.present();
-    const auto [entry, isNew] = glassLosses_.try_emplace(std::make_tuple(material.ior, material.roughness, textured),
-                                                         static_cast<uint32_t>(packed_.glassLoss.size()));
+    const auto [entry, isNew] =
+        glassLosses_.try_emplace(std::make_tuple(material.ior, material.dispersion, material.roughness, textured),
+                                 static_cast<uint32_t>(packed_.glassLoss.size()));
     if (isNew) {
-      const std::vector<glm::vec2> table =
-          glassLossTable(material.ior, {textured ? 0 : material.roughness, material.roughness});
-      packed_.glassLoss.insert(packed_.glassLoss.end(), table.begin(), table.end());
+      const glm::vec3 iors = channelIors(material);
+      for (int channel = 0; channel < (isDispersive(material) ? 3 : 1); ++channel) {
+        const std::vector<glm::vec2> table =
+            glassLossTable(iors[channel], {textured ? 0 : material.roughness, material.roughness});
+        packed_.glassLoss.insert(packed_.glassLoss.end(), table.begin(), table.end());
+      }
     }
     return entry->second;
   }
@@ -126,7 +130,8 @@ private:
   const Scene& scene_;
   PackedScene& packed_;
   uint32_t uvSets_ = 0;
-  std::map<std::tuple<float, float, bool>, uint32_t> glassLosses_; ///< by index, roughness and whether that is textured
+  std::map<std::tuple<float, float, float, bool>, uint32_t>
+      glassLosses_; ///< by index, dispersion, roughness and whether that is textured
   std::map<std::tuple<uint32_t, Wrap, Wrap, Filter, bool>, uint32_t> textures_;
 };
 
