@@ -43,9 +43,8 @@ TEST(GlassLoss, InterpolationMatchesQuadrature) {
       }
       RecordProperty("inner", std::to_string(inner));
       RecordProperty("grazing", std::to_string(grazing));
-      std::printf("ior %g half %u: inner %g grazing %g\n", ior, half, inner, grazing);
-      EXPECT_LT(inner, 6e-3) << ior << " half " << half;
-      EXPECT_LT(grazing, 2e-2) << ior << " half " << half;
+      EXPECT_LT(inner, 1e-2) << ior << " half " << half;
+      EXPECT_LT(grazing, 1.5e-2) << ior << " half " << half;
     }
   }
 }
