@@ -2,6 +2,7 @@
 #ifndef ISOPHOTE_BSDF_MATERIAL_GLSL
 #define ISOPHOTE_BSDF_MATERIAL_GLSL
 
+#include "bsdf/dispersion.glsl"
 #include "bsdf/surface_bsdf.glsl"
 #include "geometry/attributes.glsl"
 #include "geometry/surface.glsl"
@@ -26,18 +27,19 @@ vec4 materialTexel(const SceneRef scene, const SurfaceHit surface, const Geometr
 
 /// Index behind a surface over the index in front of it, where the place outside is filled with air.
 /// @return 0 stands for infinity as in KHR_materials_ior
-float etaInAir(const SceneRef scene, const SurfaceHit surface) {
-  MaterialRef materials = MaterialRef(scene.view.materials);
-  const float ior = materials.items[surface.material].ior;
-  const bool boundary = (materials.items[surface.material].flags & kMaterialVolume) != 0u;
+float etaInAir(const SceneRef scene, const SurfaceHit surface, const uint channel) {
+  const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], channel);
+  const bool boundary = (MaterialRef(scene.view.materials).items[surface.material].flags & kMaterialVolume) != 0u;
   return relativeIor(ior, surface.frontFace || !boundary || ior < 1.0);
 }
 
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
 /// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
 /// reflectance.
-/// @param eta  index behind the surface over the index in front of it, as etaInAir has it in air
-SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const float eta) {
+///
+/// @param eta      index behind the surface over the index in front of it, as etaInAir has it in air
+/// @param channel  of the index of dispersive glass, 1 for its nominal one
+SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const float eta, const uint channel) {
   const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
   const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
   SurfaceMaterial material;
@@ -46,22 +48,35 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const
   material.unlit = kHasUnlit && (record.flags & kMaterialUnlit) != 0u;
   const vec3 reflectance = clamp(material.baseColor, 0.0, 1.0);
   if (kHasSpecular) {
+    const bool dispersive = kHasDispersion && isDispersive(record);
+    const float ior = dispersive ? channelIor(record, channel) : record.ior;
     const vec4 packed = materialTexel(scene, surface, geometry, record.metallicRoughnessSlot);
     const float specular = record.specular * materialTexel(scene, surface, geometry, record.specularSlot).a;
     const vec3 specularColor =
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
     material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g, eta,
                                            specular, specularColor);
-    if (kHasTransmission && record.ior >= 1.0) {
+    if (kHasTransmission && ior >= 1.0) {
       const float transmission =
           record.transmission * materialTexel(scene, surface, geometry, record.transmissionSlot).r;
       const bool thinWalled = record.thickness == 0.0;
       setTransmission(material.bsdf.base, transmission, eta, thinWalled);
+      // The tables are those of the material in air: between other media nothing is restored.
+      if (eta == relativeIor(ior, surface.frontFace)) {
+        setGlassLoss(material.bsdf.base,
+                     dispersive ? record.glassLoss + channel * 2u * kGlassLossHalf : record.glassLoss,
+                     surface.frontFace);
+      }
     }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }
   return material;
+}
+
+/// The same in air, of the nominal index.
+SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
+  return materialAt(scene, surface, etaInAir(scene, surface, 1u), 1u);
 }
 
 /// Turns ns towards wo, in their plane, just so far that dot(wo, ns) = c = min(kMinShadingCosine, dot(wo, ng)):

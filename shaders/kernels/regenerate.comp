@@ -46,6 +46,6 @@ void main() {
     const MediumStack around = render.view.cameraMedia;
     MediaRef(pc.media).items[slot] = MediaState(around, around, 0.0, 0.0, 0u);
   }
-  if (kHasTransmission) InteriorRef(pc.interiors).items[slot] = InteriorState(1.0);
+  if (kHasTransmission) InteriorRef(pc.interiors).items[slot] = InteriorState(1.0, 0u);
   pushSlot(kQueueRay, slot);
 }

@@ -18,6 +18,9 @@
 #include "medium/medium_stack.glsl"
 #include "sampling/sampler.glsl"
 
+// The pair of random numbers whose first chooses a path's color channel, beyond those of any vertex.
+const uint kChannelPair = (1u << 29) - 1u;
+
 // A light's contribution at the surface, put up for the visibility test.
 void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
                        const Frame frame, const vec3 woLocal, const MediumCrossing crossing,
@@ -37,6 +40,22 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   if (kHasVolumes) MediaRef(pc.media).items[slot].shadow = wiLocal.z < 0.0 ? crossing.across : crossing.here;
   const vec3 origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, light.wi);
   queueShadowRay(slot, origin, light, contribution);
+}
+
+// Index of the color channel that a path has at dispersive glass. The first one it meets chooses it, and the path goes
+// on with three times its light in that channel alone; elsewhere the nominal index, green's.
+uint dispersedChannel(const SceneRef scene, const SurfaceHit surface, const SampleKey key, const uint slot,
+                      out vec3 kept) {
+  kept = vec3(1.0);
+  if (!kHasDispersion || !isDispersive(MaterialRef(scene.view.materials).items[surface.material])) return 1u;
+  InteriorRef interiors = InteriorRef(pc.interiors);
+  uint channel = interiors.items[slot].channel;
+  if (channel == 0u) {
+    channel = 1u + min(uint(3.0 * sample2d(key, kChannelPair).x), 2u);
+    interiors.items[slot].channel = channel;
+    kept = vec3(equal(uvec3(1u, 2u, 3u), uvec3(channel))) * 3.0;
+  }
+  return channel - 1u;
 }
 
 // Squared index of the medium a path enters, over that at the camera; its state follows.
@@ -113,11 +132,11 @@ MediumCrossing crossSurface(const SceneRef scene, const SurfaceHit surface, cons
 }
 
 // Index behind the surface over that in front: of a boundary those of the two media, else the material's own behind.
-float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing) {
-  const float ior = MaterialRef(scene.view.materials).items[surface.material].ior;
+float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing, const uint channel) {
+  const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], channel);
   if (ior < 1.0) return ior;
-  return isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing)
-                                                   : ior / mediumIor(scene, crossing.before);
+  return isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing, channel)
+                                                   : ior / mediumIor(scene, crossing.before, channel);
 }
 
 // Sends the path straight on, where the surface is a boundary that does nothing.
@@ -154,8 +173,11 @@ void main() {
       return;
     }
   }
-  const SurfaceMaterial material =
-      materialAt(scene, surface, kHasVolumes ? etaAt(scene, surface, crossing) : etaInAir(scene, surface));
+  const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
+  vec3 kept;
+  const uint channel = dispersedChannel(scene, surface, key, slot, kept);
+  const float eta = kHasVolumes ? etaAt(scene, surface, crossing, channel) : etaInAir(scene, surface, channel);
+  const SurfaceMaterial material = materialAt(scene, surface, eta, channel);
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {
     path.hit = 1u;
@@ -168,10 +190,10 @@ void main() {
   } else {
     path.radiance += path.beta * emissionAt(scene, surface, ray, path, slot);
   }
+  if (kHasDispersion) path.beta *= kept;
   if (alive) {
     const Frame frame = frameFromNormal(ns);
     const vec3 woLocal = toLocal(frame, wo);
-    const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
       // Lights on the far side of glass are sampled too.

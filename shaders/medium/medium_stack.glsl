@@ -7,6 +7,7 @@
 
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require // of shared/path_types.h
 
+#include "bsdf/dispersion.glsl"
 #include "medium/homogeneous.glsl"
 #include "shared/buffers.glsl"
 #include "shared/geometry_types.h"
@@ -90,13 +91,14 @@ MediumCrossing crossBoundary(const SceneRef scene, const MediumStack stack, cons
 }
 
 /// Index of refraction of a material's medium; 1 of none, and of those that nothing enters (index 0, for infinity).
-float mediumIor(const SceneRef scene, const uint material) {
-  return material == kInvalidIndex ? 1.0 : max(MaterialRef(scene.view.materials).items[material].ior, 1.0);
+float mediumIor(const SceneRef scene, const uint material, const uint channel) {
+  return material == kInvalidIndex ? 1.0
+                                   : max(materialIor(MaterialRef(scene.view.materials).items[material], channel), 1.0);
 }
 
 /// Index beyond a boundary over the index before it.
-float etaAcross(const SceneRef scene, const MediumCrossing crossing) {
-  return mediumIor(scene, crossing.beyond) / mediumIor(scene, crossing.before);
+float etaAcross(const SceneRef scene, const MediumCrossing crossing, const uint channel) {
+  return mediumIor(scene, crossing.beyond, channel) / mediumIor(scene, crossing.before, channel);
 }
 
 /// Whether a path goes straight on through a boundary, unchanged: it lies inside another medium, or it is clear and
@@ -104,7 +106,7 @@ float etaAcross(const SceneRef scene, const MediumCrossing crossing) {
 bool isInvisible(const SceneRef scene, const MediumCrossing crossing, const uint material) {
   if (crossing.before == crossing.beyond) return true;
   const uint flags = MaterialRef(scene.view.materials).items[material].flags;
-  return (flags & kMaterialClear) != 0u && etaAcross(scene, crossing) == 1.0;
+  return (flags & kMaterialClear) != 0u && etaAcross(scene, crossing, 1u) == 1.0;
 }
 
 bool isVolumeBoundary(const SceneRef scene, const uint material) {

@@ -51,6 +51,7 @@ struct MaterialRecord {
   float diffuseTransmission;
   vec3 diffuseTransmissionColor;
   float thickness;       // 0: thin-walled
+  uint glassLoss;        // where its table begins, kInvalidIndex: none
   vec3 extinction;       // of the medium behind the surface, per unit of length: absorption and scattering
   float mediumPriority;  // where media overlap, the highest fills the place
   vec3 scatteringAlbedo; // of one scattering, scattering over extinction

@@ -17,7 +17,7 @@ MaterialResult probe(const MaterialCase c) {
   surface.geometry = 0u;
   surface.primitiveIndex = 0u;
   surface.frontFace = c.frontFace != 0u;
-  const SurfaceMaterial material = materialAt(scene, surface, etaInAir(scene, surface));
+  const SurfaceMaterial material = materialAt(scene, surface);
   MaterialResult result;
   result.baseColor = material.baseColor;
   result.unlit = uint(material.unlit);

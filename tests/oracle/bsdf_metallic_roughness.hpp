@@ -18,6 +18,7 @@ struct MetallicRoughness {
   double outerIor = 1;     ///< on wo's side
   double innerIor = 1;     ///< on the other side; of thin walls that of the wall
   bool thinWalled = true;
+  bool multipleScattering = true;
 };
 
 struct BsdfSample {

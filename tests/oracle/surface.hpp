@@ -19,6 +19,7 @@ struct SurfaceMaterial {
   glm::dvec3 specularColor{1};
   double transmission = 0;
   bool thinWalled = true;
+  double dispersion = 0; ///< 20 / Abbe number
 };
 
 struct SurfacePoint {

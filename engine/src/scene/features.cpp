@@ -58,6 +58,7 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
   const bool transmits = material.transmission.factor > 0 && material.ior >= 1 &&
                          (material.metallic < 1 || material.metallicRoughnessTexture.present());
   if (transmits) features.add(Feature::kHasTransmission);
+  if (transmits && isDispersive(material)) features.add(Feature::kHasDispersion);
   if (material.metallic == 0 && material.specular == 0 && !transmits) return;
   features.add(Feature::kHasSpecular);
   if (canBeMirror(scene, material)) features.add(Feature::kHasMirror);

@@ -18,6 +18,7 @@ namespace {
 constexpr std::string_view kModeled[] = {
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
+    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_pbrSpecularGlossiness",

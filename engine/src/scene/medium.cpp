@@ -39,11 +39,11 @@ bool isVolume(const Material& material) {
 }
 
 bool isClear(const Material& material) {
-  return isVolume(material) && material.transmission.factor == 1 && !material.transmission.texture.present() &&
-         material.metallic == 0 && glm::vec3(material.baseColor) == glm::vec3(1) &&
-         !material.baseColorTexture.present() && material.emissive == glm::vec3(0) && material.clearcoat.factor == 0 &&
-         material.sheen.color == glm::vec3(0) && material.iridescence.factor == 0 &&
-         material.alphaMode == AlphaMode::Opaque;
+  return isVolume(material) && material.dispersion == 0 && material.transmission.factor == 1 &&
+         !material.transmission.texture.present() && material.metallic == 0 &&
+         glm::vec3(material.baseColor) == glm::vec3(1) && !material.baseColorTexture.present() &&
+         material.emissive == glm::vec3(0) && material.clearcoat.factor == 0 && material.sheen.color == glm::vec3(0) &&
+         material.iridescence.factor == 0 && material.alphaMode == AlphaMode::Opaque;
 }
 
 } // namespace isophote
