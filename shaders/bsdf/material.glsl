@@ -24,6 +24,23 @@ vec4 materialTexel(const SceneRef scene, const SurfaceHit surface, const Geometr
   return readSlot(scene, geometry, surface.primitiveIndex, surface.barycentrics, slot, vec4(1.0));
 }
 
+// What lies over the base: of the clearcoat factor R, roughness G; of the sheen color RGB, roughness A.
+void addLayers(const SceneRef scene, const SurfaceHit surface, const MaterialRecord record, const Geometry geometry,
+               inout SurfaceBsdf bsdf) {
+  bsdf.insideSolid = false;
+  bsdf.coat = Clearcoat(0.0, 0.0, vec3(0.0, 0.0, 1.0));
+  if (kHasClearcoat && record.clearcoat > 0.0) {
+    bsdf.coat.amount = record.clearcoat * materialTexel(scene, surface, geometry, record.clearcoatSlot).r;
+    bsdf.coat.roughness =
+        record.clearcoatRoughness * materialTexel(scene, surface, geometry, record.clearcoatRoughnessSlot).g;
+  }
+  bsdf.sheen = Sheen(vec3(0.0), 0.0);
+  if (kHasSheen && record.sheenColor != vec3(0.0)) {
+    bsdf.sheen.color = record.sheenColor * materialTexel(scene, surface, geometry, record.sheenColorSlot).rgb;
+    bsdf.sheen.roughness = record.sheenRoughness * materialTexel(scene, surface, geometry, record.sheenRoughnessSlot).a;
+  }
+}
+
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
 /// B, specular A. Base color above 1, which float vertex colors can give, is cut to 1 where it is a reflectance.
 SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
@@ -44,6 +61,7 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }
+  addLayers(scene, surface, record, geometry, material.bsdf);
   return material;
 }
 
@@ -61,15 +79,15 @@ vec3 bendTowards(const vec3 ns, const vec3 ng, const vec3 wo) {
   return least * wo + sqrt(1.0 - least * least) * inversesqrt(length2) * across;
 }
 
-/// Returns the unit normal to shade with, on wo's side: interpolated, bumped by the normal map, bent towards wo.
+/// Returns the unit normal to shade with, on wo's side: interpolated, bumped by a normal map, bent towards wo.
 ///
 /// The map's texel t gives normalize((2 t - 1) * (scale, scale, 1)) in the frame (tangent, w cross(ns, tangent), ns) of
 /// the front side (glTF 2.0, section 3.9.3); a back side has the negative of it.
 /// @param surface as seen from wo
-vec3 shadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
+/// @param slot    of the map, or kInvalidIndex
+vec3 bumpedNormal(const SceneRef scene, const SurfaceHit surface, const uint slot, const vec3 wo) {
   vec3 ns = surface.ns;
   if (kHasNormalMaps) {
-    const uint slot = MaterialRef(scene.view.materials).items[surface.material].normalSlot;
     if (slot != kInvalidIndex) {
       const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
       const float scale = TextureSlotRef(scene.view.textureSlots).items[slot].scale;
@@ -82,6 +100,20 @@ vec3 shadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo
   }
   if (kHasShadingNormals || kHasNormalMaps) ns = bendTowards(ns, surface.ng, wo);
   return ns;
+}
+
+/// The base's shading normal.
+vec3 shadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
+  const uint slot =
+      kHasNormalMaps ? MaterialRef(scene.view.materials).items[surface.material].normalSlot : kInvalidIndex;
+  return bumpedNormal(scene, surface, slot, wo);
+}
+
+/// The clearcoat's: it has a normal map of its own, or none.
+vec3 clearcoatNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
+  const uint slot =
+      kHasNormalMaps ? MaterialRef(scene.view.materials).items[surface.material].clearcoatNormalSlot : kInvalidIndex;
+  return bumpedNormal(scene, surface, slot, wo);
 }
 
 #endif

@@ -24,6 +24,13 @@ struct MetallicRoughness {
   float dielectricF90;
 };
 
+/// Of the base's continuous lobes, f |cos wi| in two parts, which the layers above pass differently.
+struct BaseValue {
+  vec3 facets;         // of microfacets
+  vec3 diffuse;        // of the diffuse lobe
+  float pdfSolidAngle; // of sampleBase, per steradian of wi
+};
+
 /// Of the continuous lobes.
 struct BsdfValue {
   vec3 fCos;           // f |cos wi|
@@ -37,9 +44,6 @@ struct BsdfSample {
   bool delta;
   bool valid; // false: absorbed
 };
-
-// A direction closer to the horizon than this counts as below it: single precision cannot tell.
-const float kMinCosine = 1e-7;
 
 /// Derives the lobes' parameters from glTF's factors after texturing.
 ///
@@ -71,24 +75,26 @@ float coatTransmission(const MetallicRoughness m, const vec2 albedo) {
   return max(1.0 - (m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y), 0.0);
 }
 
+float luminance(const vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); } // of Rec.709 primaries
+
 /// Returns the probability of choosing the specular lobe: its share of the albedo's luminance. It is 0 only where the
 /// specular lobe is black and 1 only where the diffuse lobe is.
 float specularProbability(const MetallicRoughness m, const vec2 albedo) {
-  const vec3 weights = vec3(0.2126, 0.7152, 0.0722); // of Rec.709 primaries in luminance
-  const float specular = dot(m.f0 * albedo.x + m.f90 * albedo.y, weights);
-  const float diffuse = dot(m.baseColor, weights) * (1.0 - m.metallic) * coatTransmission(m, albedo);
+  const float specular = luminance(m.f0 * albedo.x + m.f90 * albedo.y);
+  const float diffuse = luminance(m.baseColor) * (1.0 - m.metallic) * coatTransmission(m, albedo);
   return specular > 0.0 ? specular / (specular + diffuse) : 0.0;
 }
 
 // Given the table's albedo at wo and the lobe's probability, which sampleBase knows already.
-BsdfValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const vec2 albedo, const float probability,
+BaseValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const vec2 albedo, const float probability,
                         const vec3 woLocal, const vec3 wiLocal) {
   const float alpha = albedoAlpha(m);
   const float entering = coatTransmission(m, ggxAlbedo(scene, wiLocal.z, alpha));
   const float mean = max(coatTransmission(m, ggxMeanAlbedo(scene, alpha)), kMinCoatTransmission);
   const float coat = coatTransmission(m, albedo) * entering / mean;
-  BsdfValue value;
-  value.fCos = m.baseColor * ((1.0 - m.metallic) * coat * kInvPi * wiLocal.z);
+  BaseValue value;
+  value.facets = vec3(0.0);
+  value.diffuse = m.baseColor * ((1.0 - m.metallic) * coat * kInvPi * wiLocal.z);
   value.pdfSolidAngle = (1.0 - probability) * kInvPi * wiLocal.z;
   if (!isMirror(m)) {
     const vec3 sum = woLocal + wiLocal;
@@ -96,7 +102,7 @@ BsdfValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const v
     const vec3 wm = sum / twoCosine;
     const vec2 width = vec2(m.alpha);
     const float shape = ggxD(wm, width) * ggxVisibility(woLocal, wiLocal, width) * wiLocal.z;
-    value.fCos += fresnelSchlick(m.f0, m.f90, 0.5 * twoCosine) * shape;
+    value.facets = fresnelSchlick(m.f0, m.f90, 0.5 * twoCosine) * shape;
     value.pdfSolidAngle += probability * pdfVisibleReflection(woLocal, wm, width);
   }
   return value;
@@ -104,18 +110,18 @@ BsdfValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const v
 
 /// Returns f |cos wi| and the sampling density of the continuous lobes; zeros unless both directions lie above the
 /// surface.
-BsdfValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
-  if (min(woLocal.z, wiLocal.z) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
+BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
+  if (min(woLocal.z, wiLocal.z) < kMinCosine) return BaseValue(vec3(0.0), vec3(0.0), 0.0);
   if (kHasSpecular) {
     const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
     return evaluateLobes(scene, m, albedo, specularProbability(m, albedo), woLocal, wiLocal);
   }
   const float density = kInvPi * wiLocal.z;
-  return BsdfValue(m.baseColor * ((1.0 - m.metallic) * density), density);
+  return BaseValue(vec3(0.0), m.baseColor * ((1.0 - m.metallic) * density), density);
 }
 
-BsdfSample finishSample(const vec3 wiLocal, const BsdfValue value) {
-  const vec3 weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
+BsdfSample finishSample(const vec3 wiLocal, const BaseValue value) {
+  const vec3 weight = value.pdfSolidAngle > 0.0 ? (value.facets + value.diffuse) / value.pdfSolidAngle : vec3(0.0);
   const bool valid = max(weight.x, max(weight.y, weight.z)) > 0.0;
   return BsdfSample(wiLocal, weight, value.pdfSolidAngle, false, valid);
 }

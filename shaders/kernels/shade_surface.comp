@@ -104,7 +104,7 @@ void main() {
   const vec3 wo = -ray.direction;
 
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, wo);
-  const SurfaceMaterial material = materialAt(scene, surface);
+  SurfaceMaterial material = materialAt(scene, surface);
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {
     path.hit = 1u;
@@ -120,6 +120,9 @@ void main() {
   if (alive) {
     const Frame frame = frameFromNormal(ns);
     const vec3 woLocal = toLocal(frame, wo);
+    if (kHasClearcoat && material.bsdf.coat.amount > 0.0) {
+      material.bsdf.coat.normalLocal = toLocal(frame, clearcoatNormal(scene, surface, wo));
+    }
     const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {

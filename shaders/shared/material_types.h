@@ -20,6 +20,7 @@ ISOPHOTE_CONST uint kAlphaMask = 1u;
 ISOPHOTE_CONST uint kAlphaBlend = 2u;
 ISOPHOTE_CONST uint kMaterialDoubleSided = 1u;
 ISOPHOTE_CONST uint kMaterialUnlit = 2u;
+ISOPHOTE_CONST uint kMaterialConductor = 4u;
 
 // Texture members (…Slot) index the TextureSlot array, kInvalidIndex: none. Members are read one by one: those of a
 // feature that the scene lacks cost memory only.
@@ -45,6 +46,8 @@ struct MaterialRecord {
   float iridescenceIor;
   float iridescenceThicknessMinimum; // nm
   float iridescenceThicknessMaximum;
+  vec3 conductorN; // complex index of refraction of the metal, where kMaterialConductor is set
+  vec3 conductorK;
   float transmission;
   float diffuseTransmission;
   vec3 diffuseTransmissionColor;

@@ -23,6 +23,8 @@ struct SceneView {
   Address emissiveTriangles; // EmissiveTriangle
   Address punctualLights;    // PunctualLightRecord
   Address ggxAlbedo;         // vec2 table of bsdf/ggx_albedo.glsl
+  Address clearcoatTable;    // float table of bsdf/layer.glsl
+  Address sheenTable;        // the same of the sheen
   EnvironmentRecord environment;
   uint lightCount;
   uint emissiveTriangleCount;

@@ -8,8 +8,8 @@
 
 BsdfResult probe(const BsdfCase c) {
   SceneRef scene = SceneRef(pc.extra);
-  SurfaceBsdf m;
-  m.base = metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
+  const SurfaceBsdf m =
+      bareSurface(metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor));
   BsdfResult result;
   result.fCos = evalBsdf(scene, m, c.wo, c.wi);
   result.pdf = pdfBsdf(scene, m, c.wo, c.wi);

@@ -66,6 +66,11 @@ glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const
   return f * wiLocal.z;
 }
 
+glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
+  if (woLocal.z <= 0 || wiLocal.z <= 0) return glm::dvec3(0);
+  return diffuse(m, woLocal.z, wiLocal.z) * wiLocal.z;
+}
+
 double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
   if (woLocal.z <= 0 || wiLocal.z <= 0) return 0;
   const double specular = specularProbability(m, woLocal.z);

@@ -29,6 +29,9 @@ struct BsdfSample {
 /// f |cos wi| of the continuous lobes, 0 unless both directions lie above the surface.
 [[nodiscard]] glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 
+/// The part of it that the diffuse lobe scatters.
+[[nodiscard]] glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
+
 /// Density of sampleBsdf's continuous lobes per steradian of wi, with their selection probabilities.
 [[nodiscard]] double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 

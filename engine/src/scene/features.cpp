@@ -37,13 +37,17 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
   if (std::any_of(refs.begin(), refs.end(), [](const TextureRef* ref) { return ref->present(); })) {
     features.add(Feature::kHasTextures);
   }
-  if (material.normalTexture.present()) features.add(Feature::kHasNormalMaps);
+  if (material.normalTexture.present() || material.clearcoat.normalTexture.present()) {
+    features.add(Feature::kHasNormalMaps);
+  }
   if (material.alphaMode != AlphaMode::Opaque) features.add(Feature::kHasAlpha);
   if (material.emissive != glm::vec3(0)) features.add(Feature::kHasEmissiveTriangles);
   if (material.unlit) {
     features.add(Feature::kHasUnlit);
     return;
   }
+  if (material.clearcoat.factor > 0) features.add(Feature::kHasClearcoat);
+  if (material.sheen.color != glm::vec3(0)) features.add(Feature::kHasSheen);
   // Factors multiply textures of at most 1, so a factor of 0 rules the lobe out. A dielectric with ior 1 keeps its
   // grazing reflection (f90 = specular).
   if (material.metallic == 0 && material.specular == 0) return;

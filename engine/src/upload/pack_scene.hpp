@@ -56,6 +56,8 @@ struct PackedScene {
   float environmentCosRotation = 1;
   float environmentSinRotation = 0;
   std::vector<glm::vec2> ggxAlbedo;
+  std::vector<float> clearcoatTable;
+  std::vector<float> sheenTable;
   glm::dvec3 worldOrigin{0}; ///< subtracted from every world position before rounding to float
   glm::dvec3 worldCenter{0}; ///< of the bounds, absolute
   double worldRadius = 1;    ///< half diagonal of the bounds; 1 for an empty scene
