@@ -25,14 +25,14 @@ vec3 filmSensitivity(const float opd, const vec3 shift) {
   const float phase = kTwoPi * opd * 1e-9;
   const vec3 position = 2e-9 * opd * vec3(1.6810e+06, 1.7953e+06, 2.2084e+06); // half turns
   const vec3 variance = vec3(4.3278e+09, 9.3046e+09, 6.6121e+09);
-  const vec3 cosines = vec3(cosHalfTurns(position.x + shift.x), cosHalfTurns(position.y + shift.y),
-                            cosHalfTurns(position.z + shift.z));
-  vec3 xyz = vec3(5.4856e-13, 4.4201e-13, 5.2481e-13) * sqrt(kTwoPi * variance) * cosines *
-             exp(-phase * phase * variance);
+  const vec3 cosines =
+      vec3(cosHalfTurns(position.x + shift.x), cosHalfTurns(position.y + shift.y), cosHalfTurns(position.z + shift.z));
+  vec3 xyz =
+      vec3(5.4856e-13, 4.4201e-13, 5.2481e-13) * sqrt(kTwoPi * variance) * cosines * exp(-phase * phase * variance);
   xyz.x += 9.7470e-14 * sqrt(kTwoPi * 4.5282e+09) * cosHalfTurns(2e-9 * opd * 2.2399e+06 + shift.x) *
            exp(-4.5282e+09 * phase * phase); // red has a second lobe
-  const mat3 rec709FromXyz = mat3(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,
-                                  0.0415560, 1.0572252);
+  const mat3 rec709FromXyz =
+      mat3(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314, 0.0415560, 1.0572252);
   return rec709FromXyz * (xyz / 1.0685e-7);
 }
 
@@ -55,7 +55,7 @@ vec3 indexOfReflectance(const vec3 f0) {
 /// @param cosine at the outer boundary, in [0, 1]
 vec3 filmReflectance(const Iridescence film, const float cosine, const vec3 f0) {
   const float ior = mix(1.0, film.ior, smoothstep(0.0, 0.03, film.thickness)); // no film, no boundary
-  const float cos2Inside = 1.0 - (1.0 - cosine * cosine) / (ior * ior);         // >= 0: ior >= 1
+  const float cos2Inside = 1.0 - (1.0 - cosine * cosine) / (ior * ior);        // >= 0: ior >= 1
   const float cosineInside = sqrt(max(cos2Inside, 0.0));
   const float outer = fresnelSchlick(normalReflectance(vec3(ior), 1.0), vec3(1.0), cosine).x;
   const vec3 below = indexOfReflectance(f0);
@@ -73,6 +73,16 @@ vec3 filmReflectance(const Iridescence film, const float cosine, const vec3 f0) 
     sum += order * 2.0 * filmSensitivity(float(m) * opd, float(m) * shift);
   }
   return clamp(sum, 0.0, 1.0);
+}
+
+/// The largest normal reflectance that interference can give any wavelength: both amplitudes in phase.
+float filmBound(const Iridescence film, const vec3 f0) {
+  const float ior = mix(1.0, film.ior, smoothstep(0.0, 0.03, film.thickness));
+  const vec3 inner = sqrt(normalReflectance(indexOfReflectance(f0), ior));
+  const float outer = (ior - 1.0) / (ior + 1.0);
+  const float below = max(inner.x, max(inner.y, inner.z));
+  const float amplitude = (outer + below) / (1.0 + outer * below);
+  return amplitude * amplitude;
 }
 
 #endif

@@ -27,7 +27,7 @@ vec4 materialTexel(const SceneRef scene, const SurfaceHit surface, const Geometr
 // What lies over the base: of the clearcoat factor R, roughness G; of the sheen color RGB, roughness A.
 void addLayers(const SceneRef scene, const SurfaceHit surface, const MaterialRecord record, const Geometry geometry,
                inout SurfaceBsdf bsdf) {
-  bsdf.insideSolid = false;
+  bsdf.insideSolid = kHasTransmission && bsdf.base.glass > 0.0 && !bsdf.base.thinWalled && !surface.frontFace;
   bsdf.coat = Clearcoat(0.0, 0.0, vec3(0.0, 0.0, 1.0));
   if (kHasClearcoat && record.clearcoat > 0.0) {
     bsdf.coat.amount = record.clearcoat * materialTexel(scene, surface, geometry, record.clearcoatSlot).r;
@@ -41,8 +41,23 @@ void addLayers(const SceneRef scene, const SurfaceHit surface, const MaterialRec
   }
 }
 
+// KHR_materials_anisotropy: RG the direction, 2t - 1, in the tangent plane, B the strength.
+vec3 anisotropyTexel(const SceneRef scene, const SurfaceHit surface, const Geometry geometry, const uint slot) {
+  return readSlot(scene, geometry, surface.primitiveIndex, surface.barycentrics, slot, vec4(1.0, 0.5, 1.0, 1.0)).rgb;
+}
+
+// KHR_materials_iridescence: factor R, thickness G.
+Iridescence iridescenceAt(const SceneRef scene, const SurfaceHit surface, const MaterialRecord record,
+                          const Geometry geometry) {
+  const float thickness = materialTexel(scene, surface, geometry, record.iridescenceThicknessSlot).g;
+  return Iridescence(record.iridescence * materialTexel(scene, surface, geometry, record.iridescenceSlot).r,
+                     record.iridescenceIor,
+                     mix(record.iridescenceThicknessMinimum, record.iridescenceThicknessMaximum, thickness));
+}
+
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
-/// B, specular A. Base color above 1, which float vertex colors can give, is cut to 1 where it is a reflectance.
+/// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
+/// reflectance.
 SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
   const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
   const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
@@ -58,6 +73,23 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
     material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g,
                                            record.ior, specular, specularColor);
+    if (kHasAnisotropy && record.anisotropyStrength > 0.0) {
+      setAnisotropy(material.bsdf.base,
+                    record.anisotropyStrength * anisotropyTexel(scene, surface, geometry, record.anisotropySlot).b);
+    }
+    if (kHasTransmission && record.ior >= 1.0) {
+      const float transmission =
+          record.transmission * materialTexel(scene, surface, geometry, record.transmissionSlot).r;
+      const bool thinWalled = record.thickness == 0.0;
+      setTransmission(material.bsdf.base, transmission, relativeIor(record.ior, surface.frontFace || thinWalled),
+                      thinWalled);
+    }
+    if (kHasConductor && (record.flags & kMaterialConductor) != 0u) {
+      setConductor(material.bsdf.base, record.conductorN, record.conductorK);
+    }
+    if (kHasIridescence && record.iridescence > 0.0) {
+      setIridescence(material.bsdf.base, iridescenceAt(scene, surface, record, geometry));
+    }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }
@@ -100,6 +132,24 @@ vec3 bumpedNormal(const SceneRef scene, const SurfaceHit surface, const uint slo
   }
   if (kHasShadingNormals || kHasNormalMaps) ns = bendTowards(ns, surface.ng, wo);
   return ns;
+}
+
+/// The local frame of scattering: z the shading normal, x the direction of anisotropy where the surface has one.
+Frame shadingFrame(const SceneRef scene, const SurfaceHit surface, const vec3 ns) {
+  if (kHasAnisotropy) {
+    const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
+    if (record.anisotropyStrength > 0.0) {
+      const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
+      const vec2 direction = 2.0 * anisotropyTexel(scene, surface, geometry, record.anisotropySlot).rg - 1.0;
+      const vec2 turn = sinCosPi(2.0 * fract(record.anisotropyRotation * kInvTwoPi));
+      const vec2 turned =
+          vec2(turn.y * direction.x - turn.x * direction.y, turn.x * direction.x + turn.y * direction.y);
+      const float side = surface.frontFace ? 1.0 : -1.0;
+      const Frame front = frameFromNormalTangent(side * ns, surface.tangent.xyz, surface.tangent.w);
+      return frameFromNormalTangent(ns, turned.x * front.tangent + turned.y * front.bitangent, 1.0);
+    }
+  }
+  return frameFromNormal(ns);
 }
 
 /// The base's shading normal.

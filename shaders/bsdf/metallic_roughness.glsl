@@ -1,13 +1,15 @@
-// The base of a surface: the glTF 2.0 metallic-roughness model, made energy conserving and reciprocal. Formulas:
-// docs/bsdf.md.
+// The base of a surface: the glTF 2.0 metallic-roughness model with transmission, made energy conserving and
+// reciprocal. Formulas: docs/bsdf.md.
 //
-// Directions are unit and in the local shading frame, z the shading normal on wo's side.
+// Directions are unit and in the local shading frame, z the shading normal on wo's side; wi.z < 0: transmitted.
 #ifndef ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
 #define ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
 
+#include "bsdf/dielectric_interface.glsl"
 #include "bsdf/fresnel.glsl"
 #include "bsdf/ggx.glsl"
 #include "bsdf/ggx_albedo.glsl"
+#include "bsdf/iridescence.glsl"
 #include "math/constants.glsl"
 #include "sampling/warp.glsl"
 #include "shared/bsdf_constants.h"
@@ -17,11 +19,22 @@
 struct MetallicRoughness {
   vec3 baseColor;
   float metallic;
-  vec3 f0;
-  float alpha; // roughness squared; below kMirrorAlpha the specular lobe is a delta mirror
+  vec3 f0;     // of all facets but those of glass
+  float alpha; // roughness squared, of anisotropic facets the geometric mean of both widths; below kMirrorAlpha the
+               // specular lobe is a delta mirror
+  vec2 width;  // alpha along x and y
   vec3 f90;
+  float diffuse;      // share of the surface that has a diffuse lobe under its coat
   float dielectricF0; // of the coat over the diffuse lobe: its largest channel, so that no channel gains energy
   float dielectricF90;
+  vec3 glassF0;    // of dielectric facets at normal incidence
+  float glassF90;  // and at grazing
+  float glass;     // share of the surface whose facets transmit
+  float eta;       // index behind the surface over the index in front; of thin walls that of the wall
+  bool thinWalled; // both boundaries in one: transmission does not bend
+  Iridescence film;
+  vec3 conductorN; // complex index of the metal; 0: it reflects its base color
+  vec3 conductorK;
 };
 
 /// Of the base's continuous lobes, f |cos wi| in two parts, which the layers above pass differently.
@@ -31,7 +44,7 @@ struct BaseValue {
   float pdfSolidAngle; // of sampleBase, per steradian of wi
 };
 
-/// Of the continuous lobes.
+/// Of the continuous lobes. f scatters radiance: across a boundary of index ratio eta it carries the factor 1 / eta^2.
 struct BsdfValue {
   vec3 fCos;           // f |cos wi|
   float pdfSolidAngle; // of sampleBsdf, per steradian of wi
@@ -43,6 +56,7 @@ struct BsdfSample {
   float pdfSolidAngle; // of all continuous lobes; 0 for the delta lobe
   bool delta;
   bool valid; // false: absorbed
+  float eta;  // index on wi's side over the index on wo's: 1 unless the sample is refracted
 };
 
 /// Derives the lobes' parameters from glTF's factors after texturing.
@@ -59,11 +73,91 @@ MetallicRoughness metallicRoughness(const vec3 baseColor, const float metallic, 
   m.baseColor = baseColor;
   m.metallic = metallic;
   m.alpha = roughness * roughness;
+  m.width = vec2(m.alpha);
   m.f0 = mix(dielectric, baseColor, metallic);
   m.f90 = vec3(mix(specular, 1.0, metallic));
+  m.diffuse = 1.0 - metallic;
   m.dielectricF0 = max(dielectric.x, max(dielectric.y, dielectric.z));
   m.dielectricF90 = specular;
+  m.glassF0 = dielectric;
+  m.glassF90 = specular;
+  m.glass = 0.0;
+  m.eta = 1.0;
+  m.thinWalled = true;
+  m.film = Iridescence(0.0, 1.0, 0.0);
+  m.conductorN = vec3(0.0);
+  m.conductorK = vec3(0.0);
   return m;
+}
+
+/// Widens the facets' slopes along x.
+///
+/// Source: Khronos, KHR_materials_anisotropy: mix(alpha, 1, strength^2) along x, alpha along y. The albedo tables are
+/// read at the geometric mean.
+/// @param strength in [0, 1]
+void setAnisotropy(inout MetallicRoughness m, const float strength) {
+  if (strength <= 0.0) return;
+  const vec2 width = vec2(mix(m.alpha, 1.0, strength * strength), m.alpha);
+  if (width.x < kMirrorAlpha) return;
+  m.width = max(width, vec2(kMirrorAlpha));
+  m.alpha = sqrt(m.width.x * m.width.y);
+}
+
+/// Turns a share of the dielectric into glass: facets that reflect by the exact Fresnel equations and transmit the
+/// rest.
+///
+/// Source: Khronos, KHR_materials_transmission and KHR_materials_volume.
+/// @param m            as metallicRoughness returns it
+/// @param transmission share, in [0, 1]; an index that stands for infinity lets nothing through
+/// @param eta          relativeIor; of thin walls the wall's own index
+void setTransmission(inout MetallicRoughness m, const float transmission, const float eta, const bool thinWalled) {
+  m.f0 = mix((1.0 - transmission) * m.glassF0, m.baseColor, m.metallic);
+  m.f90 = vec3(mix((1.0 - transmission) * m.dielectricF90, 1.0, m.metallic));
+  m.diffuse = (1.0 - m.metallic) * (1.0 - transmission);
+  m.glass = (1.0 - m.metallic) * transmission;
+  m.eta = eta;
+  m.thinWalled = thinWalled;
+}
+
+bool isConductor(const MetallicRoughness m) { return kHasConductor && m.conductorN.x > 0.0; }
+
+bool hasFilm(const MetallicRoughness m) { return kHasIridescence && m.film.amount > 0.0; }
+
+vec3 metalReflectance(const MetallicRoughness m, const float cosine) {
+  if (!isConductor(m)) return fresnelSchlick(m.baseColor, vec3(1.0), cosine);
+  return vec3(fresnelConductor(cosine, m.conductorN.x, m.conductorK.x),
+              fresnelConductor(cosine, m.conductorN.y, m.conductorK.y),
+              fresnelConductor(cosine, m.conductorN.z, m.conductorK.z));
+}
+
+/// What facets other than glass reflect.
+vec3 facetReflectance(const MetallicRoughness m, const float cosine) {
+  if (!hasFilm(m) && !isConductor(m)) return fresnelSchlick(m.f0, m.f90, cosine);
+  vec3 metal = metalReflectance(m, cosine);
+  vec3 dielectric = fresnelSchlick(m.glassF0, vec3(m.glassF90), cosine);
+  if (hasFilm(m)) {
+    metal = mix(metal, filmReflectance(m.film, cosine, metalReflectance(m, 1.0)), m.film.amount);
+    dielectric = mix(dielectric, filmReflectance(m.film, cosine, m.glassF0), m.film.amount);
+  }
+  return m.diffuse * dielectric + m.metallic * metal;
+}
+
+/// Gives the metal a complex index of refraction.
+void setConductor(inout MetallicRoughness m, const vec3 n, const vec3 k) {
+  m.conductorN = n;
+  m.conductorK = k;
+  m.f0 = facetReflectance(m, 1.0);
+}
+
+/// Puts a thin film on the facets. The coat over the diffuse lobe is then taken for the brightest that interference can
+/// make it, so that no color gains energy.
+void setIridescence(inout MetallicRoughness m, const Iridescence film) {
+  if (film.amount <= 0.0) return;
+  m.film = film;
+  m.dielectricF0 = mix(m.dielectricF0, max(m.dielectricF0, filmBound(film, m.glassF0)), film.amount);
+  m.dielectricF90 = mix(m.dielectricF90, 1.0, film.amount);
+  m.f90 = mix(m.f90, vec3(m.diffuse + m.metallic), film.amount);
+  m.f0 = facetReflectance(m, 1.0);
 }
 
 bool isMirror(const MetallicRoughness m) { return kHasMirror && m.alpha < kMirrorAlpha; }
@@ -75,84 +169,188 @@ float coatTransmission(const MetallicRoughness m, const vec2 albedo) {
   return max(1.0 - (m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y), 0.0);
 }
 
+float largest(const vec3 v) { return max(v.x, max(v.y, v.z)); }
+
 float luminance(const vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); } // of Rec.709 primaries
 
-/// Returns the probability of choosing the specular lobe: its share of the albedo's luminance. It is 0 only where the
-/// specular lobe is black and 1 only where the diffuse lobe is.
-float specularProbability(const MetallicRoughness m, const vec2 albedo) {
-  const float specular = luminance(m.f0 * albedo.x + m.f90 * albedo.y);
-  const float diffuse = luminance(m.baseColor) * (1.0 - m.metallic) * coatTransmission(m, albedo);
-  return specular > 0.0 ? specular / (specular + diffuse) : 0.0;
+/// Returns the reflectance of a facet of glass: fresnelDielectric, scaled as KHR_materials_specular scales Schlick's
+/// approximation, f0 + (f90 - f0) x with x the share of the way from normal to grazing reflectance. Total internal
+/// reflection is total whatever the scale.
+vec3 glassReflectance(const MetallicRoughness m, const float cosine) {
+  const float exact = fresnelDielectric(cosine, m.eta);
+  if (exact >= 1.0) return vec3(1.0);
+  const float amplitude = (m.eta - 1.0) / (m.eta + 1.0);
+  const float normal = amplitude * amplitude;
+  const vec3 bare = m.glassF0 + (vec3(m.glassF90) - m.glassF0) * max((exact - normal) / (1.0 - normal), 0.0);
+  if (!hasFilm(m)) return bare;
+  const float sin2Outside = (1.0 - cosine * cosine) / min(m.eta * m.eta, 1.0); // from inside, by Snell's law
+  return mix(bare, filmReflectance(m.film, sqrt(max(1.0 - sin2Outside, 0.0)), m.glassF0), m.film.amount);
 }
 
-// Given the table's albedo at wo and the lobe's probability, which sampleBase knows already.
-BaseValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const vec2 albedo, const float probability,
-                        const vec3 woLocal, const vec3 wiLocal) {
+/// What the facets under one cosine do with light.
+struct FacetScattering {
+  vec3 reflected;
+  vec3 transmitted;
+  float reflectedShare; // of the two, by luminance: the probability of reflecting a sampled facet's light
+};
+
+/// @param cosine between wo and the facet's normal
+FacetScattering scatterAtFacet(const MetallicRoughness m, const float cosine) {
+  FacetScattering facet = FacetScattering(facetReflectance(m, cosine), vec3(0.0), 1.0);
+  if (!kHasTransmission || m.glass == 0.0) return facet;
+  const vec3 reflectance = glassReflectance(m, cosine);
+  facet.reflected += m.glass * reflectance;
+  facet.transmitted = m.glass * (1.0 - largest(reflectance)) * m.baseColor;
+  const float reflected = luminance(facet.reflected);
+  const float sum = reflected + luminance(facet.transmitted);
+  facet.reflectedShare = sum > 0.0 ? reflected / sum : 1.0;
+  return facet;
+}
+
+// Where indices are this close for the roughness, refraction spreads light less than single precision can evaluate: its
+// facet is known to 1e-7 / |eta - 1|, which must be small against alpha. Such a lobe is sampled and never evaluated, as
+// a delta lobe, and masks nothing: surfaces of index 1 are invisible.
+const float kMinRefractionSpread = 2e-4;
+
+bool transmitsDelta(const MetallicRoughness m) {
+  return isMirror(m) || (!m.thinWalled && m.alpha * abs(m.eta - 1.0) < kMinRefractionSpread * max(m.eta, 1.0));
+}
+
+/// Returns the probability of choosing a facet rather than the diffuse lobe: its share of the albedo's luminance. It is
+/// 0 only where facets are black and 1 only where the diffuse lobe is.
+float facetProbability(const MetallicRoughness m, const vec2 albedo) {
+  float facets = luminance(m.f0 * albedo.x + m.f90 * albedo.y);
+  const float below = luminance(m.baseColor) * coatTransmission(m, albedo);
+  if (kHasTransmission) facets += m.glass * (luminance(m.glassF0 * albedo.x + m.dielectricF90 * albedo.y) + below);
+  return facets > 0.0 ? facets / (facets + m.diffuse * below) : 0.0;
+}
+
+BaseValue noScattering() { return BaseValue(vec3(0.0), vec3(0.0), 0.0); }
+
+// The diffuse lobe and the reflection by facets. The table's albedo at wo and the choice's probability are those that
+// sampleBase knows already.
+BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, const vec2 albedo,
+                             const float probability, const vec3 woLocal, const vec3 wiLocal) {
   const float alpha = albedoAlpha(m);
   const float entering = coatTransmission(m, ggxAlbedo(scene, wiLocal.z, alpha));
   const float mean = max(coatTransmission(m, ggxMeanAlbedo(scene, alpha)), kMinCoatTransmission);
   const float coat = coatTransmission(m, albedo) * entering / mean;
   BaseValue value;
   value.facets = vec3(0.0);
-  value.diffuse = m.baseColor * ((1.0 - m.metallic) * coat * kInvPi * wiLocal.z);
+  value.diffuse = m.baseColor * (m.diffuse * coat * kInvPi * wiLocal.z);
   value.pdfSolidAngle = (1.0 - probability) * kInvPi * wiLocal.z;
   if (!isMirror(m)) {
     const vec3 sum = woLocal + wiLocal;
     const float twoCosine = length(sum); // 2 dot(wo, wm) of unit directions: the same from both sides to the last bit
     const vec3 wm = sum / twoCosine;
-    const vec2 width = vec2(m.alpha);
+    const vec2 width = m.width;
     const float shape = ggxD(wm, width) * ggxVisibility(woLocal, wiLocal, width) * wiLocal.z;
-    value.facets = fresnelSchlick(m.f0, m.f90, 0.5 * twoCosine) * shape;
-    value.pdfSolidAngle += probability * pdfVisibleReflection(woLocal, wm, width);
+    const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
+    value.facets = facet.reflected * shape;
+    value.pdfSolidAngle += probability * facet.reflectedShare * pdfVisibleReflection(woLocal, wm, width);
   }
   return value;
 }
 
-/// Returns f |cos wi| and the sampling density of the continuous lobes; zeros unless both directions lie above the
+// Transmission by facets, wi.z < 0: of thin walls the reflection mirrored to the other side, else refraction.
+// Source: Walter et al. 2007, eq. 21, for radiance; KHR_materials_transmission.
+BaseValue evaluateTransmission(const MetallicRoughness m, const float probability, const vec3 woLocal,
+                               const vec3 wiLocal) {
+  if (m.glass == 0.0 || transmitsDelta(m)) return noScattering();
+  const vec2 width = m.width;
+  const vec3 above = vec3(wiLocal.xy, -wiLocal.z);
+  const float visibility = ggxVisibility(woLocal, above, width) * above.z;
+  if (m.thinWalled) {
+    const vec3 sum = woLocal + above;
+    const float twoCosine = length(sum);
+    const vec3 wm = sum / twoCosine;
+    const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
+    return BaseValue(facet.transmitted * (ggxD(wm, width) * visibility), vec3(0.0),
+                     probability * (1.0 - facet.reflectedShare) * pdfVisibleReflection(woLocal, wm, width));
+  }
+  const RefractingFacet refracting = refractingFacet(woLocal, wiLocal, m.eta);
+  if (!refracting.valid) return noScattering();
+  const FacetScattering facet = scatterAtFacet(m, refracting.cosO);
+  const float shape = 4.0 * ggxD(refracting.wm, width) * visibility * refracting.cosO * refracting.jacobian;
+  const float density = pdfVisibleNormal(woLocal, refracting.wm, width) * m.eta * m.eta * refracting.jacobian;
+  return BaseValue(facet.transmitted * shape, vec3(0.0), probability * (1.0 - facet.reflectedShare) * density);
+}
+
+/// Returns f |cos wi| and the sampling density of the continuous lobes of both sides; zeros where wo is below the
 /// surface.
 BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
-  if (min(woLocal.z, wiLocal.z) < kMinCosine) return BaseValue(vec3(0.0), vec3(0.0), 0.0);
+  const bool transmitted = kHasTransmission && wiLocal.z < 0.0;
+  if (min(woLocal.z, transmitted ? -wiLocal.z : wiLocal.z) < kMinCosine) return noScattering();
   if (kHasSpecular) {
     const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
-    return evaluateLobes(scene, m, albedo, specularProbability(m, albedo), woLocal, wiLocal);
+    const float probability = facetProbability(m, albedo);
+    if (transmitted) return evaluateTransmission(m, probability, woLocal, wiLocal);
+    return evaluateReflection(scene, m, albedo, probability, woLocal, wiLocal);
   }
   const float density = kInvPi * wiLocal.z;
-  return BaseValue(vec3(0.0), m.baseColor * ((1.0 - m.metallic) * density), density);
+  return BaseValue(vec3(0.0), m.baseColor * (m.diffuse * density), density);
 }
 
-BsdfSample finishSample(const vec3 wiLocal, const BaseValue value) {
+BsdfSample absorbed() { return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0); }
+
+BsdfSample finishSample(const vec3 wiLocal, const BaseValue value, const float eta) {
   const vec3 weight = value.pdfSolidAngle > 0.0 ? (value.facets + value.diffuse) / value.pdfSolidAngle : vec3(0.0);
-  const bool valid = max(weight.x, max(weight.y, weight.z)) > 0.0;
-  return BsdfSample(wiLocal, weight, value.pdfSolidAngle, false, valid);
+  return BsdfSample(wiLocal, weight, value.pdfSolidAngle, false, largest(weight) > 0.0, eta);
 }
 
-/// Samples a direction of scattering: one lobe by its share of the albedo, a direction within it, weighed over all
-/// lobes.
+// The other side of a facet of normal wm, which the choices so far reach with `probability`, and transmission with
+// `transmittedProbability` of that.
+BsdfSample sampleTransmission(const MetallicRoughness m, const float probability, const float transmittedProbability,
+                              const vec3 transmitted, const vec3 woLocal, const vec3 wm, const float cosine) {
+  const float eta = m.thinWalled ? 1.0 : m.eta;
+  if (transmitsDelta(m)) {
+    const vec3 wi = m.thinWalled ? -woLocal : refractAbout(woLocal, wm, cosine, m.eta);
+    const vec3 weight = transmitted / (probability * transmittedProbability * eta * eta);
+    return BsdfSample(wi, weight, 0.0, true, wi.z < -kMinCosine && largest(weight) > 0.0, eta);
+  }
+  vec3 wi;
+  if (m.thinWalled) {
+    wi = normalize(2.0 * cosine * wm - woLocal);
+    wi.z = -wi.z;
+  } else {
+    wi = refractAbout(woLocal, wm, cosine, m.eta);
+  }
+  if (wi.z > -kMinCosine) return absorbed();
+  return finishSample(wi, evaluateTransmission(m, probability, woLocal, wi), eta);
+}
+
+/// Samples a direction of scattering: the diffuse lobe or a visible facet by their shares of the albedo, at the facet
+/// reflection or transmission, weighed over all lobes.
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
 BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const float uLobe,
                       const vec2 u) {
-  const BsdfSample absorbed = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false);
-  if (woLocal.z < kMinCosine) return absorbed;
+  if (woLocal.z < kMinCosine) return absorbed();
   if (!kHasSpecular) {
     const vec3 wi = sampleCosineHemisphere(u);
-    return finishSample(wi, evaluateBase(scene, m, woLocal, wi));
+    return finishSample(wi, evaluateBase(scene, m, woLocal, wi), 1.0);
   }
   const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
-  const float probability = specularProbability(m, albedo);
+  const float probability = facetProbability(m, albedo);
   vec3 wi;
   if (uLobe >= probability) {
     wi = sampleCosineHemisphere(u);
-  } else if (isMirror(m)) {
-    const vec3 weight = fresnelSchlick(m.f0, m.f90, woLocal.z) / probability;
-    return BsdfSample(vec3(-woLocal.xy, woLocal.z), weight, 0.0, true, true);
   } else {
-    const vec3 wm = sampleVisibleNormal(woLocal, vec2(m.alpha), u);
-    wi = normalize(2.0 * dot(woLocal, wm) * wm - woLocal);
+    const vec3 wm = isMirror(m) ? vec3(0.0, 0.0, 1.0) : sampleVisibleNormal(woLocal, m.width, u);
+    const float cosine = dot(woLocal, wm);
+    const FacetScattering facet = scatterAtFacet(m, cosine);
+    if (kHasTransmission && uLobe >= probability * facet.reflectedShare) {
+      return sampleTransmission(m, probability, 1.0 - facet.reflectedShare, facet.transmitted, woLocal, wm, cosine);
+    }
+    if (isMirror(m)) {
+      const vec3 weight = facet.reflected / (probability * facet.reflectedShare);
+      return BsdfSample(vec3(-woLocal.xy, woLocal.z), weight, 0.0, true, true, 1.0);
+    }
+    wi = normalize(2.0 * cosine * wm - woLocal);
   }
-  if (wi.z < kMinCosine) return absorbed;
-  return finishSample(wi, evaluateLobes(scene, m, albedo, probability, woLocal, wi));
+  if (wi.z < kMinCosine) return absorbed();
+  return finishSample(wi, evaluateReflection(scene, m, albedo, probability, woLocal, wi), 1.0);
 }
 
 #endif

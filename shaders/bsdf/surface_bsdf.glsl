@@ -16,6 +16,9 @@ struct SurfaceBsdf {
   bool insideSolid; // wo is in the interior: the layers are on the other side
 };
 
+/// Whether light passes to the other side.
+bool transmits(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
+
 const bool kHasLayers = kHasClearcoat || kHasSheen;
 
 /// A surface that is its base alone.
@@ -78,9 +81,31 @@ LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woL
   return at;
 }
 
-// What the layers leave of what the base scatters from wo to wi.
+// Refraction crosses the layers once, on the outside; what they would throw back into the interior is lost.
+float passageOutside(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
+  float passed = 1.0;
+  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
+    LayerCell cell = at.coatCell;
+    if (bsdf.insideSolid) cell = layerCell(abs(dot(bsdf.coat.normalLocal, wiLocal)), bsdf.coat.roughness);
+    passed = 1.0 - bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, cell);
+  }
+  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
+    LayerCell cell = at.sheenCell;
+    if (bsdf.insideSolid) cell = layerCell(abs(wiLocal.z), bsdf.sheen.roughness);
+    passed *= 1.0 - sheenAmount(bsdf.sheen) * readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, cell);
+  }
+  return passed;
+}
+
+// What the layers leave of what the base scatters from wo to wi. Thin walls carry them on both sides, so that
+// transmission passes them as reflection does.
 LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
   LayerPassage passage = LayerPassage(1.0, 1.0);
+  if (kHasTransmission && wiLocal.z < 0.0 && !bsdf.base.thinWalled) {
+    const float passed = passageOutside(scene, bsdf, at, wiLocal);
+    return LayerPassage(passed, passed);
+  }
+  if (bsdf.insideSolid) return passage;
   if (kHasClearcoat && bsdf.coat.amount > 0.0) {
     const float muCoat = abs(dot(bsdf.coat.normalLocal, wiLocal));
     const LayerCell cell = layerCell(muCoat, bsdf.coat.roughness);
@@ -168,7 +193,7 @@ BsdfSample weighLayered(const SceneRef scene, const SurfaceBsdf bsdf, const Laye
 // One of three lobes, coat, sheen or base, by the probabilities in `at`.
 BsdfSample sampleLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
                          float uLobe, const vec2 u) {
-  BsdfSample drawn = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false);
+  BsdfSample drawn = absorbed();
   if (uLobe < at.coatProbability) {
     drawn.wiLocal = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u));
     if (drawn.wiLocal.z < kMinCosine) return drawn;

@@ -21,6 +21,8 @@ struct SurfaceMaterial {
   double clearcoatRoughness = 0;
   glm::dvec3 sheenColor{0};
   double sheenRoughness = 0;
+  double transmission = 0;
+  bool thinWalled = true;
 };
 
 struct SurfacePoint {
@@ -29,7 +31,8 @@ struct SurfacePoint {
   glm::dvec3 ns{0};         ///< unit shading normal, turned over together with ng
   glm::dvec3 coatNormal{0}; ///< the clearcoat's own shading normal
   glm::dvec3 emission{0};   ///< radiance towards wo
-  bool unlit = false;       ///< KHR_materials_unlit: `emission` is the base color and nothing scatters
+  bool frontFace = true;
+  bool unlit = false; ///< KHR_materials_unlit: `emission` is the base color and nothing scatters
   SurfaceMaterial material;
 };
 

@@ -138,6 +138,10 @@ void Meshes::assignMaterial(std::optional<uint32_t> material, const std::string&
   if (!uvSet) {
     primitive.tangents.clear(); // nothing reads them
   } else if (primitive.tangents.empty()) {
+    if (primitive.uvs[*uvSet].empty()) { // anisotropy without a texture needs none for anything else
+      primitive.uvs[*uvSet].assign(primitive.positions.size(), glm::vec2(0));
+      document_.warnings.add("anisotropy without tangents or texture coordinates has no direction", pointer);
+    }
     generateTangents(primitive, *uvSet);
   }
 }
