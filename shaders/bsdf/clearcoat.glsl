@@ -1,4 +1,4 @@
-// KHR_materials_clearcoat: a colorless dielectric layer of index 1.5. Formulas: docs/bsdf.md, "Clearcoat".
+// KHR_materials_clearcoat: a colorless dielectric layer of index 1.5. Formulas: docs/bsdf-layers.md, "Clearcoat".
 #ifndef ISOPHOTE_BSDF_CLEARCOAT_GLSL
 #define ISOPHOTE_BSDF_CLEARCOAT_GLSL
 

@@ -1,4 +1,4 @@
-// KHR_materials_iridescence: interference in a thin film on a microfacet. Formulas: docs/bsdf.md, "Iridescence".
+// KHR_materials_iridescence: interference in a thin film on a microfacet. Formulas: docs/bsdf-layers.md, "Iridescence".
 #ifndef ISOPHOTE_BSDF_IRIDESCENCE_GLSL
 #define ISOPHOTE_BSDF_IRIDESCENCE_GLSL
 

@@ -1,4 +1,4 @@
-// KHR_materials_sheen: fibres that stand up from the surface. Formulas: docs/bsdf.md, "Sheen".
+// KHR_materials_sheen: fibres that stand up from the surface. Formulas: docs/bsdf-layers.md, "Sheen".
 #ifndef ISOPHOTE_BSDF_SHEEN_GLSL
 #define ISOPHOTE_BSDF_SHEEN_GLSL
 

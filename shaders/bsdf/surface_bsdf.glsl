@@ -1,4 +1,4 @@
-// The scattering of a surface: a clearcoat over a sheen over the base. Formulas: docs/bsdf.md, "Layers".
+// The scattering of a surface: a clearcoat over a sheen over the base. Formulas: docs/bsdf-layers.md, "Layers".
 //
 // Directions are unit and in the local shading frame, z the shading normal on wo's side.
 #ifndef ISOPHOTE_BSDF_SURFACE_BSDF_GLSL

@@ -15,6 +15,12 @@ struct LayersCase {
   vec3 coatNormal;
   vec3 sheenColor;
   float sheenRoughness;
+  float anisotropy;
+  float film;
+  float filmIor;
+  float filmThickness;
+  vec3 conductorN; // 0: none
+  vec3 conductorK;
   vec3 wo;
   vec3 wi;
   float uLobe;

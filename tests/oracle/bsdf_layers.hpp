@@ -1,4 +1,4 @@
-// Clearcoat over sheen over the base, in double precision, written from docs/bsdf.md ("Layers", "Clearcoat", "Sheen").
+// Clearcoat over sheen over the base, in double precision, written from docs/bsdf-layers.md.
 #pragma once
 
 #include <memory>
