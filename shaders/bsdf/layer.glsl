@@ -1,4 +1,4 @@
-// What a layer over the base, clearcoat or sheen, takes from the light that passes it. Formulas: docs/bsdf.md,
+// What a layer over the base, clearcoat or sheen, takes from the light that passes it. Formulas: docs/bsdf-layers.md,
 // "Layers".
 //
 // A layer of albedo E lets T = 1 - E through. What lies below is multiplied by a symmetric function of wo and wi,

@@ -10,6 +10,7 @@
 #include "glsl/bsdf_material_cases.hpp"
 #include "glsl/layers_case.h"
 #include "oracle/bsdf_layers.hpp"
+#include "shared/bsdf_constants.h"
 #include "support/statistics.hpp"
 #include "upload/layer_tables.hpp"
 
