@@ -45,9 +45,12 @@ float fresnelDielectric(const float cosI, const float eta) {
 float fresnelConductor(const float cosI, const float n, const float k) {
   const float cos2 = cosI * cosI;
   const float sin2 = 1.0 - cos2;
-  const float difference = (n - k) * (n + k) - sin2;       // a^2 - b^2
-  const float sum = length(vec2(difference, 2.0 * n * k)); // a^2 + b^2
-  const float twoACos = 2.0 * sqrt(max(0.5 * (sum + difference), 0.0)) * cosI;
+  const float difference = (n - 1.0) * (n + 1.0) - k * k + cos2; // a^2 - b^2
+  const float product = 2.0 * n * k;                             // 2 a b
+  const float sum = length(vec2(difference, product));           // a^2 + b^2
+  // Whichever form of a is no difference of near equals; a = 0 where both are.
+  const float a = difference >= 0.0 ? sqrt(0.5 * (sum + difference)) : product * inversesqrt(2.0 * (sum - difference));
+  const float twoACos = 2.0 * a * cosI;
   const float s = (sum + cos2 - twoACos) / (sum + cos2 + twoACos);
   const float p = (cos2 * sum + sin2 * sin2 - twoACos * sin2) / (cos2 * sum + sin2 * sin2 + twoACos * sin2);
   return clamp(0.5 * s * (1.0 + p), 0.0, 1.0);

@@ -75,14 +75,17 @@ vec3 filmReflectance(const Iridescence film, const float cosine, const vec3 f0) 
   return clamp(sum, 0.0, 1.0);
 }
 
-/// The largest normal reflectance that interference can give any wavelength: both amplitudes in phase.
+/// The smallest f0 of a Schlick reflectance (f0, 1) that covers the film's brightest channel at eight cosines.
 float filmBound(const Iridescence film, const vec3 f0) {
-  const float ior = mix(1.0, film.ior, smoothstep(0.0, 0.03, film.thickness));
-  const vec3 inner = sqrt(normalReflectance(indexOfReflectance(f0), ior));
-  const float outer = (ior - 1.0) / (ior + 1.0);
-  const float below = max(inner.x, max(inner.y, inner.z));
-  const float amplitude = (outer + below) / (1.0 + outer * below);
-  return amplitude * amplitude;
+  float bound = 0.0;
+  for (int i = 1; i <= 8; ++i) {
+    const float cosine = 0.125 * float(i);
+    const vec3 reflectance = filmReflectance(film, cosine, f0);
+    const float grazing = fresnelSchlick(vec3(0.0), vec3(1.0), cosine).x;
+    const float brightest = max(reflectance.x, max(reflectance.y, reflectance.z));
+    bound = max(bound, (brightest - grazing) / (1.0 - grazing));
+  }
+  return bound;
 }
 
 #endif

@@ -25,8 +25,9 @@ ISOPHOTE_CONST uint kGgxAlbedoMeans = kGgxAlbedoMuCount * kGgxAlbedoRoughnessCou
 // Normal reflectance of the clearcoat, index 1.5 (KHR_materials_clearcoat).
 ISOPHOTE_CONST float kClearcoatF0 = 0.04f;
 
-// Fibres do not stand up straighter than this: the sheen's lobe has vanished but for a hairline at the horizon.
-ISOPHOTE_CONST float kMinSheenAlpha = 1e-3f;
+// Fibres do not stand up straighter than this (roughness 0.07): all that the sheen's lobe still does is a hairline at
+// the horizon, too thin for its table.
+ISOPHOTE_CONST float kMinSheenAlpha = 5e-3f;
 
 // Table of a layer over the base, see bsdf/layer.glsl: floats. Nodes of mu as in the GGX table, c; r stands for the
 // layer's roughness r / (kLayerRoughnessCount - 1), b for the base's b / (kLayerBaseCount - 1).

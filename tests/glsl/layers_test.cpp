@@ -80,7 +80,7 @@ std::string describe(const LayersCase& c) {
 // A few of each kind; roughnesses from a short list, since the oracle solves each pair anew.
 std::vector<LayersCase> materials() {
   const glm::vec3 color(0.3f, 0.7f, 0.5f);
-  LayersCase tilted = coated(bare(color, 0, 0.5f), 0.8f, 0.4f);
+  LayersCase tilted = coated(bare(color, 0, 0.5f), 0.8f, 0.40625f);
   tilted.coatNormal = test::directionOf(0.97, 1);
   const LayersCase metal = bare({0.9f, 0.6f, 0.3f}, 1, 0.35f);
   LayersCase brushed = metal;
@@ -103,13 +103,13 @@ std::vector<LayersCase> materials() {
           gold,
           soap,
           annealed,
-          coated(bare(color, 0, 0.5f), 1, 0.3f),
-          coated(metal, 1, 0.6f),
-          coated(bare({0.9f, 0.6f, 0.3f}, 1, 1), 0.5f, 0.3f),
+          coated(bare(color, 0, 0.5f), 1, 0.296875f),
+          coated(metal, 1, 0.59375f),
+          coated(bare({0.9f, 0.6f, 0.3f}, 1, 1), 0.5f, 0.296875f),
           tilted,
           velvet(bare(color, 0, 0.5f), {0.9f, 0.5f, 0.2f}, 0.5f),
           velvet(metal, glm::vec3(0.6f), 0.8f),
-          coated(velvet(bare(color, 0, 1), {0.5f, 1, 0.7f}, 0.8f), 0.7f, 0.3f)};
+          coated(velvet(bare(color, 0, 1), {0.5f, 1, 0.7f}, 0.8f), 0.7f, 0.296875f)};
 }
 
 oracle::LayeredSurface oracleSurface(const LayersCase& c) {

@@ -87,11 +87,11 @@ glm::dvec3 filmReflectance(const ThinFilm& film, double cosine, const glm::dvec3
 }
 
 double filmBound(const ThinFilm& film, const glm::dvec3& f0) {
-  const double outer = std::sqrt(normalReflectance(filmIor(film), 1));
   double bound = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double inner = std::sqrt(normalReflectance(iorOf(f0[i]), filmIor(film)));
-    bound = std::max(bound, std::pow((outer + inner) / (1 + outer * inner), 2));
+  for (int i = 1; i <= 8; ++i) {
+    const glm::dvec3 reflectance = filmReflectance(film, i / 8.0, f0);
+    const double grazing = std::pow(1 - i / 8.0, 5);
+    bound = std::max(bound, (std::max({reflectance.x, reflectance.y, reflectance.z}) - grazing) / (1 - grazing));
   }
   return bound;
 }

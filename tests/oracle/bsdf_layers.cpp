@@ -44,7 +44,7 @@ double interpolate(const std::vector<double>& row, double mu) {
 
 // 2 times the integral over mu in [0, 1] of function(mu) mu.
 template <class Function> double cosineMean(const Function& function) {
-  const int steps = 2000;
+  const int steps = 500;
   double sum = 0;
   for (int i = 0; i < steps; ++i) {
     const double x = (i + 0.5) / steps; // sqrt(mu)
@@ -66,7 +66,7 @@ double charlieLambda(double cosine, double alpha) {
 
 // Integral over wi of the sheen's lobe times weight(wi.z).
 template <class Weight> double sheenIntegral(double mu, double roughness, const Weight& weight) {
-  const int heights = 200, azimuths = 64;
+  const int heights = 100, azimuths = 32;
   const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
   double sum = 0;
   for (int i = 0; i < heights; ++i) {
@@ -74,10 +74,9 @@ template <class Weight> double sheenIntegral(double mu, double roughness, const 
     const double z = t * t * t;
     const double w = weight(z) * 3 * t * t;
     for (int j = 0; j < azimuths; ++j) {
-      const double s = (j + 0.5) / azimuths;
-      const double phi = pi * s * s;
+      const double phi = pi * (j + 0.5) / azimuths;
       const double sine = std::sqrt(1 - z * z);
-      sum += w * 2 * s * sheenLobe(wo, {sine * std::cos(phi), sine * std::sin(phi), z}, roughness);
+      sum += w * sheenLobe(wo, {sine * std::cos(phi), sine * std::sin(phi), z}, roughness);
     }
   }
   return 2 * pi * sum / (heights * azimuths);
@@ -148,7 +147,7 @@ private:
     }
     if (alpha == 0) return;
     std::vector<std::vector<Ray>> rays(kNodes);
-    const int side = 40;
+    const int side = 32;
     for (int n = 0; n < kNodes; ++n) {
       const double mu = std::max(nodeMu(n), 1e-9);
       const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);

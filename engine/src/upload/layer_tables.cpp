@@ -207,26 +207,25 @@ double sheenLambda(double cosine, double alpha) {
 /// Shares of the sheen's albedo by the node they go to, before scaling.
 Row sheenShares(double mu, double alpha, const std::vector<double>& lambdas) {
   const int heights = static_cast<int>(lambdas.size());
-  constexpr int kAzimuthCount = 16;
+  constexpr int kAzimuthCount = 32;
   const double sine = std::sqrt(1 - mu * mu);
   const double lambdaO = sheenLambda(mu, alpha);
   Row shares{};
   for (int i = 0; i < heights; ++i) {
     const double t = (i + 0.5) / heights;
-    const double muI = t * t; // grazing directions carry most
+    const double muI = t * t * t; // grazing directions carry most
     const double sineI = std::sqrt(1 - muI * muI);
     double sum = 0;
     for (int j = 0; j < kAzimuthCount; ++j) {
-      const double s = (j + 0.5) / kAzimuthCount;
-      const double phi = std::numbers::pi * s * s; // half vectors lie flat where wi is opposite to the mirror direction
+      const double phi = std::numbers::pi * (j + 0.5) / kAzimuthCount;
       const glm::dvec3 h(sine + sineI * std::cos(phi), sineI * std::sin(phi), mu + muI);
       const double sin2 = (h.x * h.x + h.y * h.y) / glm::dot(h, h);
-      sum += 2 * s * std::pow(sin2, 0.5 / alpha);
+      sum += std::pow(sin2, 0.5 / alpha);
     }
     const double distribution = (2 + 1 / alpha) / (2 * std::numbers::pi) * sum / kAzimuthCount;
-    // D / (4 mu (1 + Lambda + Lambda)), over the azimuths of both halves and dmuI = 2 t dt.
+    // D / (4 mu (1 + Lambda + Lambda)), over the azimuths of both halves and dmuI = 3 t^2 dt.
     const double value = distribution / (4 * std::max(mu, 1e-4) * (1 + lambdaO + lambdas[static_cast<size_t>(i)]));
-    spread(shares, muI, 2 * std::numbers::pi * value * 2 * t / heights);
+    spread(shares, muI, 2 * std::numbers::pi * value * 3 * t * t / heights);
   }
   return shares;
 }
@@ -234,12 +233,12 @@ Row sheenShares(double mu, double alpha, const std::vector<double>& lambdas) {
 /// Near grazing the published lobe reflects more than arrives where roughness is below 0.3. It is divided by its own
 /// albedo there, at both directions, so that it stays reciprocal and never exceeds 1.
 LayerAlbedo sheenAlbedo(double roughness) {
-  constexpr int kHeightCount = 96;
+  constexpr int kHeightCount = 48;
   const double alpha = std::max(roughness * roughness, double(gpu::kMinSheenAlpha));
   std::vector<double> lambdas;
   for (int i = 0; i < kHeightCount; ++i) {
     const double t = (i + 0.5) / kHeightCount;
-    lambdas.push_back(sheenLambda(t * t, alpha));
+    lambdas.push_back(sheenLambda(t * t * t, alpha));
   }
   std::array<Row, kMuCount> shares;
   LayerAlbedo layer;
