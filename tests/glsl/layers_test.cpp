@@ -82,7 +82,7 @@ std::vector<LayersCase> materials() {
   const glm::vec3 color(0.3f, 0.7f, 0.5f);
   LayersCase tilted = coated(bare(color, 0, 0.5f), 0.8f, 0.40625f);
   tilted.coatNormal = test::directionOf(0.97, 1);
-  const LayersCase metal = bare({0.9f, 0.6f, 0.3f}, 1, 0.35f);
+  const LayersCase metal = bare({0.9f, 0.6f, 0.3f}, 1, 0.34375f);
   LayersCase brushed = metal;
   brushed.anisotropy = 0.7f;
   LayersCase brushedPlastic = bare(color, 0, 0.5f);
@@ -171,7 +171,7 @@ TEST(Layers, ValuesAndDensitiesMatchTheOracle) {
   std::mt19937 generator(1);
   for (const LayersCase& material : materials()) {
     const oracle::LayeredSurface expected = oracleSurface(material);
-    std::vector<LayersCase> cases(300, material);
+    std::vector<LayersCase> cases(100, material);
     for (LayersCase& c : cases) drawDirections(c, generator);
     const auto results = probeLayers(cases);
     for (size_t i = 0; i < cases.size(); ++i) {
@@ -229,14 +229,15 @@ TEST(Layers, SampleWeightIsValueOverDensity) {
   }
 }
 
-// Bins of equal steps of t = sqrt(1 - wi.z) and azimuth. Significance 1e-3 over all configurations (Sidak); with 1e5
-// samples in 400 bins a density that is off by 4% root mean square is rejected.
+// Bins of equal steps of t, wi.z = cos^2(pi t / 2), and azimuth: fine at the pole and at the horizon. Significance 1e-3
+// over all configurations (Sidak); with 4e4 samples in 400 bins a density that is off by 6% root mean square is
+// rejected.
 TEST(Layers, SamplesFollowTheDensityWhichIntegratesToOne) {
-  constexpr int kBins = 20, kNodes = 16, kSide = kBins * kNodes;
-  constexpr size_t kSamples = 100000;
+  constexpr int kBins = 20, kNodes = 10, kSide = kBins * kNodes;
+  constexpr size_t kSamples = 40000;
   std::vector<LayersCase> configurations;
   for (const LayersCase& material : materials()) {
-    for (const double cosine : {1.0, 0.5, 0.05}) {
+    for (const double cosine : {0.8, 0.05}) {
       configurations.push_back(material);
       configurations.back().wo = test::directionOf(cosine, 0.6);
     }
@@ -247,7 +248,7 @@ TEST(Layers, SamplesFollowTheDensityWhichIntegratesToOne) {
     for (size_t i = 0; i < kSamples; ++i) drawUniforms(cases[i], generator);
     const auto direction = [](int i, int j) {
       const double t = (i + 0.5) / kSide;
-      return test::directionOf(1 - t * t, 2 * pi * ((j + 0.5) / kSide - 0.5));
+      return test::directionOf(std::pow(std::cos(pi / 2 * t), 2), 2 * pi * ((j + 0.5) / kSide - 0.5));
     };
     for (int i = 0; i < kSide * kSide; ++i) cases[kSamples + size_t(i)].wi = direction(i / kSide, i % kSide);
     const auto results = probeLayers(cases);
@@ -256,7 +257,8 @@ TEST(Layers, SamplesFollowTheDensityWhichIntegratesToOne) {
       size_t bin = kBins * kBins; // absorbed
       if ((results[i].flags & gpu::kLayersValid) != 0) {
         const glm::vec3 wi = results[i].sampledWi;
-        const int row = std::min(int(std::sqrt(std::max(0.0, 1 - double(wi.z))) * kBins), kBins - 1);
+        const double t = std::acos(std::sqrt(std::min(double(wi.z), 1.0))) * 2 / pi;
+        const int row = std::min(int(t * kBins), kBins - 1);
         const int column = std::min(int((std::atan2(double(wi.y), double(wi.x)) / (2 * pi) + 0.5) * kBins), kBins - 1);
         bin = size_t(row * kBins + column);
       }
@@ -265,8 +267,8 @@ TEST(Layers, SamplesFollowTheDensityWhichIntegratesToOne) {
     std::vector<double> expected(kBins * kBins + 1);
     double mass = 0;
     for (int i = 0; i < kSide * kSide; ++i) {
-      const double share =
-          double(results[kSamples + size_t(i)].pdf) * 4 * pi * (i / kSide + 0.5) / (double(kSide) * kSide * kSide);
+      const double share = double(results[kSamples + size_t(i)].pdf) * pi * pi *
+                           std::sin(pi * (i / kSide + 0.5) / kSide) / (double(kSide) * kSide);
       expected[size_t(i / kSide / kNodes * kBins + i % kSide / kNodes)] += share * double(kSamples);
       mass += share;
     }
@@ -295,7 +297,7 @@ TEST(Layers, OverWhiteReflectEverything) {
     }
     for (size_t i = surfaces.size() - 60; i < surfaces.size(); ++i) surfaces[i].wo = test::directionOf(cosine, 0.3);
   }
-  const auto albedos = sampledAlbedos(surfaces, 20000);
+  const auto albedos = sampledAlbedos(surfaces, 8000);
   for (size_t i = 0; i < surfaces.size(); ++i) EXPECT_NEAR(albedos[i].y, 1, 1e-2) << describe(surfaces[i]);
 }
 
@@ -314,7 +316,7 @@ TEST(Layers, NeverReflectMoreThanArrives) {
       }
     }
   }
-  const auto albedos = sampledAlbedos(surfaces, 20000);
+  const auto albedos = sampledAlbedos(surfaces, 8000);
   for (size_t i = 0; i < surfaces.size(); ++i) {
     for (int k = 0; k < 3; ++k) EXPECT_LT(albedos[i][k], 1 + 5e-3) << describe(surfaces[i]);
   }
