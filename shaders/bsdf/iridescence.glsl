@@ -79,7 +79,8 @@ vec3 filmReflectance(const Iridescence film, const float cosine, const vec3 f0) 
 float filmBound(const Iridescence film, const vec3 f0) {
   float bound = 0.0;
   for (int i = 1; i <= 8; ++i) {
-    const float cosine = 0.125 * float(i);
+    const float t = 0.125 * float(i);
+    const float cosine = t * sqrt(t); // 0.044 and on: reflectance bends most at grazing angles
     const vec3 reflectance = filmReflectance(film, cosine, f0);
     const float grazing = fresnelSchlick(vec3(0.0), vec3(1.0), cosine).x;
     const float brightest = max(reflectance.x, max(reflectance.y, reflectance.z));

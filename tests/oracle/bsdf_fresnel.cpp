@@ -89,8 +89,9 @@ glm::dvec3 filmReflectance(const ThinFilm& film, double cosine, const glm::dvec3
 double filmBound(const ThinFilm& film, const glm::dvec3& f0) {
   double bound = 0;
   for (int i = 1; i <= 8; ++i) {
-    const glm::dvec3 reflectance = filmReflectance(film, i / 8.0, f0);
-    const double grazing = std::pow(1 - i / 8.0, 5);
+    const double cosine = std::pow(i / 8.0, 1.5);
+    const glm::dvec3 reflectance = filmReflectance(film, cosine, f0);
+    const double grazing = std::pow(1 - cosine, 5);
     bound = std::max(bound, (std::max({reflectance.x, reflectance.y, reflectance.z}) - grazing) / (1 - grazing));
   }
   return bound;

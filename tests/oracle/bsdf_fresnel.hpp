@@ -31,7 +31,8 @@ struct ThinFilm {
 /// KHR_materials_iridescence.
 [[nodiscard]] glm::dvec3 filmReflectance(const ThinFilm& film, double cosine, const glm::dvec3& f0);
 
-/// The smallest f0 of a Schlick reflectance (f0, 1) above the film's brightest channel at cosines 1/8, 2/8 ... 1.
+/// The smallest f0 of a Schlick reflectance (f0, 1) above the film's brightest channel at the cosines (i / 8)^1.5, i =
+/// 1 to 8.
 [[nodiscard]] double filmBound(const ThinFilm& film, const glm::dvec3& f0);
 
 } // namespace isophote::oracle
