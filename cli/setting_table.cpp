@@ -84,6 +84,9 @@ std::vector<SettingEntry> makeTable() {
       choice(
           {"russian-roulette", "on, off", "on", "on", "end dim paths at random, without bias; off needs a max-depth"},
           estimator, &E::russianRoulette, onOff),
+      choice({"multiple-scattering", "on, off", "on", "on",
+              "light scattered more than once between the facets of a rough surface; off loses it (bias)"},
+             estimator, &E::multipleScattering, onOff),
       number({"seed", "0 to 18446744073709551615", "0", "0", "another seed is another, independent image"}, estimator,
              &E::seed, ~uint64_t{0}, nullptr, uint64_t{0}),
       number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", true}, execution,
@@ -140,6 +143,12 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
         {"value", settings.estimator.maxDepth},
         {"exact", "unlimited"},
         {"leaves_out", fmt::format("light after more than {} scattering events", settings.estimator.maxDepth)}};
+  }
+  if (!settings.estimator.multipleScattering) {
+    json["multiple-scattering"] = {
+        {"value", "off"},
+        {"exact", "on"},
+        {"leaves_out", "light scattered more than once between the facets of rough surfaces"}};
   }
   return json;
 }

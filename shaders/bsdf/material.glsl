@@ -2,6 +2,7 @@
 #ifndef ISOPHOTE_BSDF_MATERIAL_GLSL
 #define ISOPHOTE_BSDF_MATERIAL_GLSL
 
+#include "bsdf/dispersion.glsl"
 #include "bsdf/surface_bsdf.glsl"
 #include "geometry/attributes.glsl"
 #include "geometry/surface.glsl"
@@ -58,7 +59,9 @@ Iridescence iridescenceAt(const SceneRef scene, const SurfaceHit surface, const 
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
 /// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
 /// reflectance.
-SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
+///
+/// @param channel of the index of dispersive glass, 1 for its nominal one
+SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const uint channel) {
   const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
   const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
   SurfaceMaterial material;
@@ -67,22 +70,25 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
   material.unlit = kHasUnlit && (record.flags & kMaterialUnlit) != 0u;
   const vec3 reflectance = clamp(material.baseColor, 0.0, 1.0);
   if (kHasSpecular) {
+    const bool dispersive = kHasDispersion && isDispersive(record);
+    const float ior = dispersive ? channelIor(record, channel) : record.ior;
     const vec4 packed = materialTexel(scene, surface, geometry, record.metallicRoughnessSlot);
     const float specular = record.specular * materialTexel(scene, surface, geometry, record.specularSlot).a;
     const vec3 specularColor =
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
-    material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g,
-                                           record.ior, specular, specularColor);
+    material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g, ior,
+                                           specular, specularColor);
     if (kHasAnisotropy && record.anisotropyStrength > 0.0) {
       setAnisotropy(material.bsdf.base,
                     record.anisotropyStrength * anisotropyTexel(scene, surface, geometry, record.anisotropySlot).b);
     }
-    if (kHasTransmission && record.ior >= 1.0) {
+    if (kHasTransmission && ior >= 1.0) {
       const float transmission =
           record.transmission * materialTexel(scene, surface, geometry, record.transmissionSlot).r;
       const bool thinWalled = record.thickness == 0.0;
-      setTransmission(material.bsdf.base, transmission, relativeIor(record.ior, surface.frontFace || thinWalled),
-                      thinWalled);
+      setTransmission(material.bsdf.base, transmission, relativeIor(ior, surface.frontFace || thinWalled), thinWalled);
+      setGlassLoss(material.bsdf.base, dispersive ? record.glassLoss + channel * 2u * kGlassLossHalf : record.glassLoss,
+                   surface.frontFace);
     }
     if (kHasConductor && (record.flags & kMaterialConductor) != 0u) {
       setConductor(material.bsdf.base, record.conductorN, record.conductorK);
@@ -96,6 +102,8 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
   addLayers(scene, surface, record, geometry, material.bsdf);
   return material;
 }
+
+SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) { return materialAt(scene, surface, 1u); }
 
 /// Turns ns towards wo, in their plane, just so far that dot(wo, ns) = c = min(kMinShadingCosine, dot(wo, ng)):
 /// ns' = c wo + sqrt(1 - c^2) t, t the unit part of ns orthogonal to wo. Continuous in ns; a flat surface stays as it

@@ -9,6 +9,7 @@
 #include "bsdf/fresnel.glsl"
 #include "bsdf/ggx.glsl"
 #include "bsdf/ggx_albedo.glsl"
+#include "bsdf/glass_loss.glsl"
 #include "bsdf/iridescence.glsl"
 #include "math/constants.glsl"
 #include "sampling/warp.glsl"
@@ -27,11 +28,13 @@ struct MetallicRoughness {
   float diffuse;      // share of the surface that has a diffuse lobe under its coat
   float dielectricF0; // of the coat over the diffuse lobe: its largest channel, so that no channel gains energy
   float dielectricF90;
-  vec3 glassF0;    // of dielectric facets at normal incidence
-  float glassF90;  // and at grazing
-  float glass;     // share of the surface whose facets transmit
-  float eta;       // index behind the surface over the index in front; of thin walls that of the wall
-  bool thinWalled; // both boundaries in one: transmission does not bend
+  vec3 glassF0;     // of dielectric facets at normal incidence
+  float glassF90;   // and at grazing
+  float glass;      // share of the surface whose facets transmit
+  float eta;        // index behind the surface over the index in front; of thin walls that of the wall
+  bool thinWalled;  // both boundaries in one: transmission does not bend
+  uint lossInFront; // half tables of glassLoss for light from wo's side and from the other; kInvalidIndex: none
+  uint lossBehind;
   Iridescence film;
   vec3 conductorN; // complex index of the metal; 0: it reflects its base color
   vec3 conductorK;
@@ -39,8 +42,8 @@ struct MetallicRoughness {
 
 /// Of the base's continuous lobes, f |cos wi| in two parts, which the layers above pass differently.
 struct BaseValue {
-  vec3 facets;         // of microfacets
-  vec3 diffuse;        // of the diffuse lobe
+  vec3 facets;         // of single scattering by microfacets
+  vec3 diffuse;        // of the lobes that follow the cosine: the diffuse one, and multiple scattering
   float pdfSolidAngle; // of sampleBase, per steradian of wi
 };
 
@@ -84,10 +87,22 @@ MetallicRoughness metallicRoughness(const vec3 baseColor, const float metallic, 
   m.glass = 0.0;
   m.eta = 1.0;
   m.thinWalled = true;
+  m.lossInFront = kInvalidIndex;
+  m.lossBehind = kInvalidIndex;
   m.film = Iridescence(0.0, 1.0, 0.0);
   m.conductorN = vec3(0.0);
   m.conductorK = vec3(0.0);
   return m;
+}
+
+/// Names the tables that restore what rough glass loses.
+///
+/// @param table     of the material's index in air, kInvalidIndex: none
+/// @param frontFace wo is in the air
+void setGlassLoss(inout MetallicRoughness m, const uint table, const bool frontFace) {
+  if (table == kInvalidIndex) return;
+  m.lossInFront = frontFace ? table : table + kGlassLossHalf;
+  m.lossBehind = frontFace ? table + kGlassLossHalf : table;
 }
 
 /// Widens the facets' slopes along x.
@@ -165,10 +180,6 @@ bool isMirror(const MetallicRoughness m) { return kHasMirror && m.alpha < kMirro
 // Table alpha: a mirror's albedo is the limit alpha = 0.
 float albedoAlpha(const MetallicRoughness m) { return isMirror(m) ? 0.0 : m.alpha; }
 
-float coatTransmission(const MetallicRoughness m, const vec2 albedo) {
-  return max(1.0 - (m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y), 0.0);
-}
-
 float largest(const vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 float luminance(const vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); } // of Rec.709 primaries
@@ -216,29 +227,128 @@ bool transmitsDelta(const MetallicRoughness m) {
   return isMirror(m) || (!m.thinWalled && m.alpha * abs(m.eta - 1.0) < kMinRefractionSpread * max(m.eta, 1.0));
 }
 
-/// Returns the probability of choosing a facet rather than the diffuse lobe: its share of the albedo's luminance. It is
-/// 0 only where facets are black and 1 only where the diffuse lobe is.
-float facetProbability(const MetallicRoughness m, const vec2 albedo) {
-  float facets = luminance(m.f0 * albedo.x + m.f90 * albedo.y);
-  const float below = luminance(m.baseColor) * coatTransmission(m, albedo);
-  if (kHasTransmission) facets += m.glass * (luminance(m.glassF0 * albedo.x + m.dielectricF90 * albedo.y) + below);
-  return facets > 0.0 ? facets / (facets + m.diffuse * below) : 0.0;
+// Color of what leaves after more than one reflection between facets, for a loss that is white: the geometric series of
+// the mean Fresnel reflectance, weighed by what each bounce lets out.
+// Source: Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH course, slide 18.
+// @param kept mean albedo of one reflection, at least 0.4
+vec3 multipleReflectance(const vec3 f0, const vec3 f90, const float kept) {
+  const vec3 mean = f0 + (f90 - f0) / 21.0; // of Schlick's approximation, cosine weighted
+  return mean * mean * (kept / (1.0 - mean * (1.0 - kept)));
+}
+
+/// Multiple scattering by facets of glass, as seen from wo.
+struct GlassMultiple {
+  float lost;        // by one scattering of light from wo
+  float meanInFront; // mean of such losses over wo, and of those of light from behind
+  float meanBehind;
+  float transmitted; // share of the lost light that leaves to the other side
+};
+
+/// What the lobes do with light from wo; all that does not depend on wi.
+struct BaseShares {
+  vec2 albedo; // (A, B) of the facets
+  float lost;  // by one reflection of all light
+  float meanLost;
+  vec3 multiple;      // reflectance of multiple scattering by opaque facets
+  float coatMultiple; // the same of the coat alone
+  float coat;         // what the coat lets through to the diffuse lobe
+  float meanCoat;     // mean over directions
+  GlassMultiple glass;
+  float facetProbability;  // of choosing a facet in sampleBase,
+  float behindProbability; // of choosing the cosine lobe of the other side; the rest: this side's
+};
+
+float coatTransmission(const MetallicRoughness m, const vec2 albedo, const float multiple, const float lost) {
+  return max(1.0 - (m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost), 0.0);
+}
+
+float lostBetweenFacets(const vec2 albedo) {
+  return kMultipleScattering == 1u ? max(1.0 - (albedo.x + albedo.y), 0.0) : 0.0;
+}
+
+// Share of the normal reflectance that KHR_materials_specular leaves.
+float specularScale(const MetallicRoughness m) {
+  const float amplitude = (m.eta - 1.0) / (m.eta + 1.0);
+  const float normal = amplitude * amplitude;
+  return normal > 0.0 ? min(largest(m.glassF0) / normal, 1.0) : 1.0;
+}
+
+// The shares of both sides must be reciprocal, (1 - transmitted) of each times its mean loss and squared index being
+// equal, which leaves one factor free: the denser mean of them gets what the mean Fresnel reflectance from outside lets
+// through. Its fit for indices in [1, 3] is Kulla and Conty's, slide 20.
+GlassMultiple glassMultiple(const SceneRef scene, const MetallicRoughness m, const float muO, const BaseShares shares) {
+  const float index = max(m.eta, 1.0 / m.eta);
+  const float scale = specularScale(m);
+  const float entering = 1.0 - scale * min((index - 1.0) / (4.08567 + 1.00071 * index), 1.0);
+  if (m.thinWalled) return GlassMultiple(shares.lost, shares.meanLost, shares.meanLost, entering);
+  if (kMultipleScattering == 0u || m.lossInFront == kInvalidIndex || transmitsDelta(m)) {
+    return GlassMultiple(0.0, 1.0, 1.0, entering);
+  }
+  const float inFront = max(glassMeanLoss(scene, m.lossInFront, m.alpha, scale), 1e-6);
+  const float behind = max(glassMeanLoss(scene, m.lossBehind, m.alpha, scale), 1e-6);
+  const float denser = m.eta * m.eta * behind;
+  return GlassMultiple(glassLoss(scene, m.lossInFront, muO, m.alpha, scale), inFront, behind,
+                       entering * denser / max(denser, inFront));
+}
+
+// How the losses of glass continue at wi, on wo's side or the other.
+float glassLossAt(const SceneRef scene, const MetallicRoughness m, const float muI, const bool behind) {
+  if (m.thinWalled) return lostBetweenFacets(ggxAlbedo(scene, muI, albedoAlpha(m)));
+  if (kMultipleScattering == 0u || m.lossInFront == kInvalidIndex || transmitsDelta(m)) return 0.0;
+  return glassLoss(scene, behind ? m.lossBehind : m.lossInFront, muI, m.alpha, specularScale(m));
+}
+
+/// @param muO cosine of wo
+BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const float muO) {
+  const float alpha = albedoAlpha(m);
+  const vec2 mean = ggxMeanAlbedo(scene, alpha);
+  BaseShares shares;
+  shares.albedo = ggxAlbedo(scene, muO, alpha);
+  shares.lost = lostBetweenFacets(shares.albedo);
+  shares.meanLost = max(lostBetweenFacets(mean), 1e-6);
+  const float kept = 1.0 - shares.meanLost;
+  shares.multiple = m.metallic * multipleReflectance(metalReflectance(m, 1.0), vec3(1.0), kept) +
+                    m.diffuse * multipleReflectance(m.glassF0, vec3(m.glassF90), kept);
+  shares.coatMultiple = multipleReflectance(vec3(m.dielectricF0), vec3(m.dielectricF90), kept).x;
+  shares.coat = coatTransmission(m, shares.albedo, shares.coatMultiple, shares.lost);
+  shares.meanCoat = max(coatTransmission(m, mean, shares.coatMultiple, lostBetweenFacets(mean)), kMinCoatTransmission);
+  shares.glass = GlassMultiple(0.0, 1.0, 1.0, 0.0);
+
+  float facets = luminance(m.f0 * shares.albedo.x + m.f90 * shares.albedo.y);
+  const float below = luminance(m.baseColor) * shares.coat;
+  float above = m.diffuse * below + luminance(shares.multiple) * shares.lost;
+  float behind = 0.0;
+  if (kHasTransmission && m.glass > 0.0) {
+    shares.glass = glassMultiple(scene, m, muO, shares);
+    facets += m.glass * (luminance(m.glassF0 * shares.albedo.x + m.dielectricF90 * shares.albedo.y) + below);
+    above += m.glass * (1.0 - shares.glass.transmitted) * shares.glass.lost;
+    behind = m.glass * luminance(m.baseColor) * shares.glass.transmitted * shares.glass.lost;
+  }
+  const float sum = facets + above + behind;
+  shares.facetProbability = facets > 0.0 ? facets / sum : 0.0;
+  shares.behindProbability = behind > 0.0 ? behind / sum : 0.0;
+  return shares;
 }
 
 BaseValue noScattering() { return BaseValue(vec3(0.0), vec3(0.0), 0.0); }
 
-// The diffuse lobe and the reflection by facets. The table's albedo at wo and the choice's probability are those that
-// sampleBase knows already.
-BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, const vec2 albedo,
-                             const float probability, const vec3 woLocal, const vec3 wiLocal) {
-  const float alpha = albedoAlpha(m);
-  const float entering = coatTransmission(m, ggxAlbedo(scene, wiLocal.z, alpha));
-  const float mean = max(coatTransmission(m, ggxMeanAlbedo(scene, alpha)), kMinCoatTransmission);
-  const float coat = coatTransmission(m, albedo) * entering / mean;
+// The lobes on wo's side: diffuse, multiple scattering, and the reflection by facets.
+BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
+                             const vec3 woLocal, const vec3 wiLocal) {
+  const vec2 albedo = ggxAlbedo(scene, wiLocal.z, albedoAlpha(m));
+  const float lost = lostBetweenFacets(albedo);
+  const float entering = coatTransmission(m, albedo, shares.coatMultiple, lost);
+  const float cosine = kInvPi * wiLocal.z;
   BaseValue value;
   value.facets = vec3(0.0);
-  value.diffuse = m.baseColor * (m.diffuse * coat * kInvPi * wiLocal.z);
-  value.pdfSolidAngle = (1.0 - probability) * kInvPi * wiLocal.z;
+  value.diffuse = m.baseColor * (m.diffuse * (shares.coat * entering / shares.meanCoat) * cosine) +
+                  shares.multiple * (shares.lost * lost / shares.meanLost * cosine);
+  if (kHasTransmission && m.glass > 0.0) {
+    const GlassMultiple glass = shares.glass;
+    const float continued = glass.lost * glassLossAt(scene, m, wiLocal.z, false) / glass.meanInFront;
+    value.diffuse += m.glass * (1.0 - glass.transmitted) * continued * cosine;
+  }
+  value.pdfSolidAngle = (1.0 - shares.facetProbability - shares.behindProbability) * cosine;
   if (!isMirror(m)) {
     const vec3 sum = woLocal + wiLocal;
     const float twoCosine = length(sum); // 2 dot(wo, wm) of unit directions: the same from both sides to the last bit
@@ -247,16 +357,16 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
     const float shape = ggxD(wm, width) * ggxVisibility(woLocal, wiLocal, width) * wiLocal.z;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
     value.facets = facet.reflected * shape;
-    value.pdfSolidAngle += probability * facet.reflectedShare * pdfVisibleReflection(woLocal, wm, width);
+    value.pdfSolidAngle += shares.facetProbability * facet.reflectedShare * pdfVisibleReflection(woLocal, wm, width);
   }
   return value;
 }
 
-// Transmission by facets, wi.z < 0: of thin walls the reflection mirrored to the other side, else refraction.
+// Transmission by single facets, wi.z < 0: of thin walls the reflection mirrored to the other side, else refraction.
+// The density is that of choosing them with `probability`.
 // Source: Walter et al. 2007, eq. 21, for radiance; KHR_materials_transmission.
-BaseValue evaluateTransmission(const MetallicRoughness m, const float probability, const vec3 woLocal,
-                               const vec3 wiLocal) {
-  if (m.glass == 0.0 || transmitsDelta(m)) return noScattering();
+BaseValue evaluateFacetTransmission(const MetallicRoughness m, const float probability, const vec3 woLocal,
+                                    const vec3 wiLocal) {
   const vec2 width = m.width;
   const vec3 above = vec3(wiLocal.xy, -wiLocal.z);
   const float visibility = ggxVisibility(woLocal, above, width) * above.z;
@@ -276,16 +386,32 @@ BaseValue evaluateTransmission(const MetallicRoughness m, const float probabilit
   return BaseValue(facet.transmitted * shape, vec3(0.0), probability * (1.0 - facet.reflectedShare) * density);
 }
 
+// Index behind over in front, of directions.
+float refractedEta(const MetallicRoughness m) { return m.thinWalled ? 1.0 : m.eta; }
+
+// The lobes on the other side.
+BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
+                               const vec3 woLocal, const vec3 wiLocal) {
+  if (m.glass == 0.0 || transmitsDelta(m)) return noScattering();
+  BaseValue value = evaluateFacetTransmission(m, shares.facetProbability, woLocal, wiLocal);
+  const GlassMultiple glass = shares.glass;
+  const float eta = refractedEta(m);
+  const float cosine = -kInvPi * wiLocal.z;
+  const float continued = glass.lost * glassLossAt(scene, m, -wiLocal.z, true) / (glass.meanBehind * eta * eta);
+  value.diffuse = m.baseColor * (m.glass * glass.transmitted * continued * cosine);
+  value.pdfSolidAngle += shares.behindProbability * cosine;
+  return value;
+}
+
 /// Returns f |cos wi| and the sampling density of the continuous lobes of both sides; zeros where wo is below the
 /// surface.
 BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
   const bool transmitted = kHasTransmission && wiLocal.z < 0.0;
   if (min(woLocal.z, transmitted ? -wiLocal.z : wiLocal.z) < kMinCosine) return noScattering();
   if (kHasSpecular) {
-    const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
-    const float probability = facetProbability(m, albedo);
-    if (transmitted) return evaluateTransmission(m, probability, woLocal, wiLocal);
-    return evaluateReflection(scene, m, albedo, probability, woLocal, wiLocal);
+    const BaseShares shares = baseShares(scene, m, woLocal.z);
+    if (transmitted) return evaluateTransmission(scene, m, shares, woLocal, wiLocal);
+    return evaluateReflection(scene, m, shares, woLocal, wiLocal);
   }
   const float density = kInvPi * wiLocal.z;
   return BaseValue(vec3(0.0), m.baseColor * (m.diffuse * density), density);
@@ -298,14 +424,14 @@ BsdfSample finishSample(const vec3 wiLocal, const BaseValue value, const float e
   return BsdfSample(wiLocal, weight, value.pdfSolidAngle, false, largest(weight) > 0.0, eta);
 }
 
-// The other side of a facet of normal wm, which the choices so far reach with `probability`, and transmission with
-// `transmittedProbability` of that.
-BsdfSample sampleTransmission(const MetallicRoughness m, const float probability, const float transmittedProbability,
-                              const vec3 transmitted, const vec3 woLocal, const vec3 wm, const float cosine) {
-  const float eta = m.thinWalled ? 1.0 : m.eta;
+// A direction to the other side through a facet of normal wm, where transmission was chosen.
+BsdfSample sampleFacetTransmission(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
+                                   const FacetScattering facet, const vec3 woLocal, const vec3 wm, const float cosine) {
+  const float eta = refractedEta(m);
   if (transmitsDelta(m)) {
     const vec3 wi = m.thinWalled ? -woLocal : refractAbout(woLocal, wm, cosine, m.eta);
-    const vec3 weight = transmitted / (probability * transmittedProbability * eta * eta);
+    const float probability = shares.facetProbability * (1.0 - facet.reflectedShare);
+    const vec3 weight = facet.transmitted / (probability * eta * eta);
     return BsdfSample(wi, weight, 0.0, true, wi.z < -kMinCosine && largest(weight) > 0.0, eta);
   }
   vec3 wi;
@@ -316,11 +442,11 @@ BsdfSample sampleTransmission(const MetallicRoughness m, const float probability
     wi = refractAbout(woLocal, wm, cosine, m.eta);
   }
   if (wi.z > -kMinCosine) return absorbed();
-  return finishSample(wi, evaluateTransmission(m, probability, woLocal, wi), eta);
+  return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), eta);
 }
 
-/// Samples a direction of scattering: the diffuse lobe or a visible facet by their shares of the albedo, at the facet
-/// reflection or transmission, weighed over all lobes.
+/// Samples a direction of scattering: the cosine lobe of either side or a visible facet by their shares of the albedo,
+/// at the facet reflection or transmission, weighed over all lobes.
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
@@ -331,26 +457,29 @@ BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec
     const vec3 wi = sampleCosineHemisphere(u);
     return finishSample(wi, evaluateBase(scene, m, woLocal, wi), 1.0);
   }
-  const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
-  const float probability = facetProbability(m, albedo);
+  const BaseShares shares = baseShares(scene, m, woLocal.z);
   vec3 wi;
-  if (uLobe >= probability) {
+  if (uLobe >= shares.facetProbability) {
     wi = sampleCosineHemisphere(u);
+    if (kHasTransmission && uLobe < shares.facetProbability + shares.behindProbability) {
+      wi.z = -wi.z;
+      return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), refractedEta(m));
+    }
   } else {
     const vec3 wm = isMirror(m) ? vec3(0.0, 0.0, 1.0) : sampleVisibleNormal(woLocal, m.width, u);
     const float cosine = dot(woLocal, wm);
     const FacetScattering facet = scatterAtFacet(m, cosine);
-    if (kHasTransmission && uLobe >= probability * facet.reflectedShare) {
-      return sampleTransmission(m, probability, 1.0 - facet.reflectedShare, facet.transmitted, woLocal, wm, cosine);
+    if (kHasTransmission && uLobe >= shares.facetProbability * facet.reflectedShare) {
+      return sampleFacetTransmission(scene, m, shares, facet, woLocal, wm, cosine);
     }
     if (isMirror(m)) {
-      const vec3 weight = facet.reflected / (probability * facet.reflectedShare);
+      const vec3 weight = facet.reflected / (shares.facetProbability * facet.reflectedShare);
       return BsdfSample(vec3(-woLocal.xy, woLocal.z), weight, 0.0, true, true, 1.0);
     }
     wi = normalize(2.0 * cosine * wm - woLocal);
   }
   if (wi.z < kMinCosine) return absorbed();
-  return finishSample(wi, evaluateReflection(scene, m, albedo, probability, woLocal, wi), 1.0);
+  return finishSample(wi, evaluateReflection(scene, m, shares, woLocal, wi), 1.0);
 }
 
 #endif

@@ -53,9 +53,8 @@ LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woL
   LayersAtWo at;
   at.base = LayerBase(1.0, 0.0, 0.0, 1.0);
   if (kHasSpecular) {
-    const float alpha = albedoAlpha(bsdf.base);
-    const float mean = coatTransmission(bsdf.base, ggxMeanAlbedo(scene, alpha));
-    at.base = LayerBase(sqrt(alpha), bsdf.base.dielectricF0, bsdf.base.dielectricF90, max(mean, kMinCoatTransmission));
+    const float mean = baseShares(scene, bsdf.base, woLocal.z).meanCoat;
+    at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90, mean);
   }
   float reachable = 1.0; // share of the light that comes down to the layer at hand
   float coatShare = 0.0;

@@ -29,6 +29,9 @@ const float kRouletteMaxSurvival = 0.999;
 // is rounded. 16 roundings; measured: without it such a light shadowed a third of its own samples.
 const float kBeforeLight = 1.0 - 9.5367431640625e-7;
 
+// The pair of random numbers whose first chooses a path's color channel, beyond those of any vertex.
+const uint kChannelPair = (1u << 29) - 1u;
+
 const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
 
 // Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
@@ -62,6 +65,22 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   }
   ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
   pushSlot(kQueueShadow, slot);
+}
+
+// Index of the color channel that a path has at dispersive glass. The first one it meets chooses it, and the path goes
+// on with three times its light in that channel alone; elsewhere the nominal index, green's.
+uint dispersedChannel(const SceneRef scene, const SurfaceHit surface, const SampleKey key, const uint slot,
+                      out vec3 kept) {
+  kept = vec3(1.0);
+  if (!kHasDispersion || !isDispersive(MaterialRef(scene.view.materials).items[surface.material])) return 1u;
+  InteriorRef interiors = InteriorRef(pc.interiors);
+  uint channel = interiors.items[slot].channel;
+  if (channel == 0u) {
+    channel = 1u + min(uint(3.0 * sample2d(key, kChannelPair).x), 2u);
+    interiors.items[slot].channel = channel;
+    kept = vec3(equal(uvec3(1u, 2u, 3u), uvec3(channel))) * 3.0;
+  }
+  return channel - 1u;
 }
 
 // Squared index of the medium a path enters, over that at the camera; its state follows.
@@ -128,7 +147,10 @@ void main() {
   const vec3 wo = -ray.direction;
 
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, wo);
-  SurfaceMaterial material = materialAt(scene, surface);
+  const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
+  vec3 kept;
+  const uint channel = dispersedChannel(scene, surface, key, slot, kept);
+  SurfaceMaterial material = materialAt(scene, surface, channel);
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {
     path.hit = 1u;
@@ -141,13 +163,13 @@ void main() {
   } else {
     path.radiance += path.beta * emissionAt(scene, surface, ray, path, slot);
   }
+  if (kHasDispersion) path.beta *= kept;
   if (alive) {
     const Frame frame = shadingFrame(scene, surface, ns);
     const vec3 woLocal = toLocal(frame, wo);
     if (kHasClearcoat && material.bsdf.coat.amount > 0.0) {
       material.bsdf.coat.normalLocal = toLocal(frame, clearcoatNormal(scene, surface, wo));
     }
-    const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
       // Lights on the far side of glass are sampled too.

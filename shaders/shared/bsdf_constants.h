@@ -42,6 +42,14 @@ ISOPHOTE_CONST uint kLayerNarrow =
     kLayerCovariance + 2u * kLayerRoughnessCount * kLayerBaseCount; // [r][b][c] coupling with a microfacet base
 ISOPHOTE_CONST uint kLayerTableSize = kLayerNarrow + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount;
 
+// Tables of what one scattering by rough glass loses between its facets, see bsdf/glass_loss.glsl; one for each index,
+// behind each other. Each has two halves, for light that comes from the air and from the glass; each half
+// kGlassLossRoughnessCount rows of kGlassLossMuCount columns, spaced as those above, and then the means, one a row.
+ISOPHOTE_CONST uint kGlassLossMuCount = 64u;
+ISOPHOTE_CONST uint kGlassLossRoughnessCount = 32u;
+ISOPHOTE_CONST uint kGlassLossMeans = kGlassLossMuCount * kGlassLossRoughnessCount;
+ISOPHOTE_CONST uint kGlassLossHalf = kGlassLossMeans + kGlassLossRoughnessCount;
+
 ISOPHOTE_SHARED_END
 
 #endif

@@ -52,6 +52,7 @@ struct MaterialRecord {
   float diffuseTransmission;
   vec3 diffuseTransmissionColor;
   float thickness; // 0: thin-walled
+  uint glassLoss;  // where its table begins, kInvalidIndex: none
   vec3 attenuationColor;
   float attenuationDistance; // 0: infinite
   vec3 multiscatterColor;

@@ -46,6 +46,7 @@ struct ShadowState {
 // Where a path is, in scenes with transmission.
 struct InteriorState {
   float etaScale; // squared index of the path's medium over that at the camera
+  uint channel;   // the one that dispersion left of the path: 1 + its index, 0: all
 };
 
 ISOPHOTE_CONST uint kQueueFree = 0u;

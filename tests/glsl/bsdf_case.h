@@ -15,6 +15,7 @@ struct BsdfCase {
   float transmission; // 0: not glass
   uint backFace;      // wo is in the glass
   uint thinWalled;
+  uint glassLoss; // set by probeBsdf
   vec3 wo;
   vec3 wi;
   float uLobe;

@@ -1,6 +1,7 @@
 // Materials, directions and random numbers that the BSDF tests share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -9,6 +10,8 @@
 #include "glsl/bsdf_case.h"
 #include "glsl/bsdf_scene.hpp"
 #include "oracle/bsdf_metallic_roughness.hpp"
+#include "shared/bsdf_constants.h"
+#include "shared/geometry_types.h"
 #include "support/probe.hpp"
 #include "test_glsl_kernels.hpp"
 
@@ -75,9 +78,17 @@ inline std::string describe(const gpu::BsdfCase& c) {
          " cosines " + std::to_string(c.wo.z) + ", " + std::to_string(c.wi.z);
 }
 
-inline std::vector<gpu::BsdfResult> probeBsdf(const std::vector<gpu::BsdfCase>& cases,
+inline std::vector<gpu::BsdfResult> probeBsdf(std::vector<gpu::BsdfCase> cases,
                                               std::span<const gpu::SpecConstant> constants = {}) {
-  const BsdfScene scene;
+  const auto isRoughGlass = [](const gpu::BsdfCase& c) {
+    return c.transmission > 0 && c.thinWalled == 0 && c.roughness * c.roughness >= gpu::kMirrorAlpha;
+  };
+  std::vector<float> iors;
+  for (const gpu::BsdfCase& c : cases) {
+    if (isRoughGlass(c) && std::find(iors.begin(), iors.end(), c.ior) == iors.end()) iors.push_back(c.ior);
+  }
+  const BsdfScene scene(iors);
+  for (gpu::BsdfCase& c : cases) c.glassLoss = isRoughGlass(c) ? scene.glassLoss(c.ior) : gpu::kInvalidIndex;
   return runProbe<gpu::BsdfCase, gpu::BsdfResult>(test_glsl_kernels::kernelSource("bsdf_probe"), cases, scene.address(),
                                                   constants);
 }

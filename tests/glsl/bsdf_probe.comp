@@ -13,6 +13,7 @@ BsdfResult probe(const BsdfCase c) {
   const bool thinWalled = c.thinWalled != 0u;
   if (c.transmission > 0.0) {
     setTransmission(m.base, c.transmission, relativeIor(c.ior, thinWalled || c.backFace == 0u), thinWalled);
+    setGlassLoss(m.base, c.glassLoss, c.backFace == 0u);
   }
   BsdfResult result;
   result.fCos = evalBsdf(scene, m, c.wo, c.wi);

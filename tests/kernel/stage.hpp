@@ -26,7 +26,7 @@ public:
       : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions),
         pool(gpuDevice(), capacity, {.shadows = true, .interiors = true}),
         kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)), rays(capacity),
-        hits(capacity), paths(capacity), shadows(capacity), interiors(capacity, {1}) {
+        hits(capacity), paths(capacity), shadows(capacity), interiors(capacity, {1, 0}) {
     for (auto& queue : queues) queue.resize(capacity);
     view.replicates = film.impl().replicates.address();
     view.aovs = film.impl().aovs.address();

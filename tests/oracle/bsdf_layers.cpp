@@ -236,9 +236,7 @@ LayeredSurface::Probabilities LayeredSurface::probabilities(const glm::dvec3& wo
 }
 
 LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  const glm::dvec2 meanBelow = meanAlbedo(baseAlpha(base_));
-  const double passedBelow = std::max(1 - base_.dielectricF0 * meanBelow.x - base_.dielectricF90 * meanBelow.y,
-                                      double(gpu::kMinCoatTransmission));
+  const double passedBelow = meanCoatTransmission(base_);
   const auto through = [&](const LayerCoupling& layer, double amount, double muO, double muI) {
     const double covariance = base_.dielectricF0 * layer.covariance().x + base_.dielectricF90 * layer.covariance().y;
     const double mean = 1 - layer.mean() + covariance / passedBelow;

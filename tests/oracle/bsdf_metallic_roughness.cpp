@@ -6,6 +6,7 @@
 
 #include "oracle/bsdf_fresnel.hpp"
 #include "oracle/bsdf_ggx.hpp"
+#include "oracle/glass_loss.hpp"
 #include "shared/bsdf_constants.h"
 
 namespace isophote::oracle {
@@ -17,12 +18,34 @@ double luminance(const glm::dvec3& color) { return glm::dot(color, glm::dvec3(0.
 
 bool isMirror(const MetallicRoughness& m) { return m.alpha < double(gpu::kMirrorAlpha); }
 
-double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
-  return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y;
-}
-
 // GGX integrals of the lobe that is really there: a mirror's where alpha is below the limit.
 double modelAlpha(const MetallicRoughness& m) { return isMirror(m) ? 0 : m.alpha; }
+
+double lost(const MetallicRoughness& m, const glm::dvec2& albedo) {
+  return m.multipleScattering ? 1 - albedo.x - albedo.y : 0;
+}
+
+// Reflectance of multiple scattering between opaque facets. Source: Kulla and Conty 2017, "Revisiting Physically Based
+// Shading at Imageworks".
+glm::dvec3 multipleReflectance(const MetallicRoughness& m, const glm::dvec3& f0, const glm::dvec3& f90) {
+  const glm::dvec3 fresnel = f0 + (f90 - f0) / 21.0;
+  const glm::dvec2 mean = meanAlbedo(modelAlpha(m));
+  const double kept = mean.x + mean.y;
+  return fresnel * fresnel * kept / (1.0 - fresnel * (1 - kept));
+}
+
+// What the coat over the diffuse lobe reflects, by (A, B) in one direction or their mean.
+double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
+  const double multiple = multipleReflectance(m, glm::dvec3(m.dielectricF0), glm::dvec3(m.dielectricF90)).x;
+  return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost(m, albedo);
+}
+
+glm::dvec3 metalReflectance(const MetallicRoughness& m, double cosine) {
+  if (m.conductorN.x == 0) return fresnelSchlick(m.baseColor, glm::dvec3(1), cosine);
+  return {fresnelConductor(cosine, m.conductorN.x, m.conductorK.x),
+          fresnelConductor(cosine, m.conductorN.y, m.conductorK.y),
+          fresnelConductor(cosine, m.conductorN.z, m.conductorK.z)};
+}
 
 double glassShare(const MetallicRoughness& m) { return m.transmission * (1 - m.metallic); }
 
@@ -34,14 +57,80 @@ glm::dvec3 diffuse(const MetallicRoughness& m, double muO, double muI) {
   return m.baseColor * ((1 - m.metallic) * (1 - m.transmission) / pi * transmittedO * transmittedI / mean);
 }
 
-// Probability of choosing a facet instead of the diffuse lobe.
-double facetProbability(const MetallicRoughness& m, double muO) {
+glm::dvec3 opaqueMultiple(const MetallicRoughness& m) {
+  return m.metallic * multipleReflectance(m, metalReflectance(m, 1), glm::dvec3(1)) +
+         (1 - m.metallic) * (1 - m.transmission) * multipleReflectance(m, m.glassF0, glm::dvec3(m.glassF90));
+}
+
+// Multiple scattering by glass: what light at cosine mu in front of, or behind, the surface loses; means; and the share
+// of light from wo's side that is sent to the other.
+struct GlassMultiple {
+  double lossInFront = 0, meanInFront = 1, meanBehind = 1, transmitted = 0;
+};
+
+double glassLossAt(const MetallicRoughness& m, double mu, bool behind) {
+  if (!m.multipleScattering) return 0;
+  if (m.thinWalled) return lost(m, directionalAlbedo(mu, modelAlpha(m)));
+  if (transmitsDelta(m)) return 0;
+  const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
+  const double scale = std::min(1.0, std::max({m.glassF0.x, m.glassF0.y, m.glassF0.z}) / normal);
+  return glassLoss(mu, m.alpha, behind ? m.outerIor / m.innerIor : m.innerIor / m.outerIor, scale);
+}
+
+GlassMultiple glassMultiple(const MetallicRoughness& m, double muO) {
+  GlassMultiple result;
+  result.lossInFront = glassLossAt(m, muO, false);
+  if (result.lossInFront == 0) return result;
+  const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
+  const double scale = std::min(1.0, std::max({m.glassF0.x, m.glassF0.y, m.glassF0.z}) / normal);
+  const double index = std::max(m.innerIor / m.outerIor, m.outerIor / m.innerIor);
+  const double entering = 1 - scale * std::min(1.0, (index - 1) / (4.08567 + 1.00071 * index));
+  if (m.thinWalled) {
+    result.meanInFront = result.meanBehind = lost(m, meanAlbedo(modelAlpha(m)));
+    result.transmitted = entering;
+    return result;
+  }
+  result.meanInFront = glassMeanLoss(m.alpha, m.innerIor / m.outerIor, scale);
+  result.meanBehind = glassMeanLoss(m.alpha, m.outerIor / m.innerIor, scale);
+  const double inFront = m.outerIor * m.outerIor * result.meanInFront;
+  const double behind = m.innerIor * m.innerIor * result.meanBehind;
+  result.transmitted = entering * behind / std::max(behind, inFront); // reciprocal
+  return result;
+}
+
+// Probabilities of the facets and of the cosine lobe of the other side; the rest is this side's cosine lobe.
+struct Choice {
+  double facets = 0, behind = 0;
+};
+
+Choice lobeChoice(const MetallicRoughness& m, double muO) {
   const glm::dvec2 albedo = directionalAlbedo(muO, modelAlpha(m));
+  const GlassMultiple glass = glassMultiple(m, muO);
   const double below = luminance(m.baseColor) * (1 - coatAlbedo(m, albedo));
   const double facets = luminance(m.f0 * albedo.x + m.f90 * albedo.y) +
                         glassShare(m) * (luminance(m.glassF0 * albedo.x + m.dielectricF90 * albedo.y) + below);
-  const double diffuse = (1 - m.metallic) * (1 - m.transmission) * below;
-  return facets > 0 ? facets / (facets + diffuse) : 0;
+  const double above = (1 - m.metallic) * (1 - m.transmission) * below +
+                       luminance(opaqueMultiple(m)) * lost(m, albedo) +
+                       glassShare(m) * (1 - glass.transmitted) * glass.lossInFront;
+  const double behind = glassShare(m) * luminance(m.baseColor) * glass.transmitted * glass.lossInFront;
+  const double sum = facets + above + behind;
+  return sum > 0 ? Choice{facets / sum, behind / sum} : Choice{};
+}
+
+// The lobes of multiple scattering, without the cosine; of both sides.
+glm::dvec3 multipleScattering(const MetallicRoughness& m, double muO, double muI, bool behind) {
+  glm::dvec3 f(0);
+  if (!behind && !isMirror(m)) {
+    const double alpha = modelAlpha(m);
+    const double both = lost(m, directionalAlbedo(muO, alpha)) * lost(m, directionalAlbedo(muI, alpha));
+    if (both > 0) f += opaqueMultiple(m) * (both / (pi * lost(m, meanAlbedo(alpha))));
+  }
+  const GlassMultiple glass = glassMultiple(m, muO);
+  if (glassShare(m) == 0 || glass.lossInFront == 0) return f;
+  const double both = glass.lossInFront * glassLossAt(m, muI, behind);
+  if (!behind) return f + glassShare(m) * (1 - glass.transmitted) * both / (pi * glass.meanInFront);
+  const double toOuter = m.thinWalled ? 1 : m.outerIor * m.outerIor / (m.innerIor * m.innerIor); // of radiance
+  return glassShare(m) * m.baseColor * glass.transmitted * both / (pi * glass.meanBehind) * toOuter;
 }
 
 glm::dvec3 reflectedAtFacet(const MetallicRoughness& m, double cosine) {
@@ -182,13 +271,8 @@ MetallicRoughness withFilm(MetallicRoughness m, const ThinFilm& film) {
 
 glm::dvec3 facetReflectance(const MetallicRoughness& m, double cosine) {
   if (m.film.amount == 0 && m.conductorN.x == 0) return fresnelSchlick(m.f0, m.f90, cosine);
-  const auto metalAt = [&m](double c) {
-    if (m.conductorN.x == 0) return fresnelSchlick(m.baseColor, glm::dvec3(1), c);
-    return glm::dvec3(fresnelConductor(c, m.conductorN.x, m.conductorK.x),
-                      fresnelConductor(c, m.conductorN.y, m.conductorK.y),
-                      fresnelConductor(c, m.conductorN.z, m.conductorK.z));
-  };
-  const glm::dvec3 metal = glm::mix(metalAt(cosine), filmReflectance(m.film, cosine, metalAt(1)), m.film.amount);
+  const glm::dvec3 metal =
+      glm::mix(metalReflectance(m, cosine), filmReflectance(m.film, cosine, metalReflectance(m, 1)), m.film.amount);
   const glm::dvec3 dielectric = glm::mix(fresnelSchlick(m.glassF0, glm::dvec3(m.glassF90), cosine),
                                          filmReflectance(m.film, cosine, m.glassF0), m.film.amount);
   return (1 - m.metallic) * (1 - m.transmission) * dielectric + m.metallic * metal;
@@ -203,9 +287,10 @@ glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const
   if (woLocal.z <= 0 || wiLocal.z == 0) return glm::dvec3(0);
   if (wiLocal.z < 0) {
     if (m.transmission == 0 || transmitsDelta(m)) return glm::dvec3(0);
-    return transmittedByFacets(m, woLocal, wiLocal).f * -wiLocal.z;
+    return (transmittedByFacets(m, woLocal, wiLocal).f + multipleScattering(m, woLocal.z, -wiLocal.z, true)) *
+           -wiLocal.z;
   }
-  glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z);
+  glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z) + multipleScattering(m, woLocal.z, wiLocal.z, false);
   if (!isMirror(m)) {
     const glm::dvec3 wm = glm::normalize(woLocal + wiLocal);
     const glm::dvec2 alpha(m.width);
@@ -217,17 +302,21 @@ glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const
 
 glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
   if (woLocal.z <= 0 || wiLocal.z <= 0) return glm::dvec3(0);
-  return diffuse(m, woLocal.z, wiLocal.z) * wiLocal.z;
+  return (diffuse(m, woLocal.z, wiLocal.z) + multipleScattering(m, woLocal.z, wiLocal.z, false)) * wiLocal.z;
+}
+
+double meanCoatTransmission(const MetallicRoughness& m) {
+  return std::max(1 - coatAlbedo(m, meanAlbedo(modelAlpha(m))), double(gpu::kMinCoatTransmission));
 }
 
 double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
   if (woLocal.z <= 0 || wiLocal.z == 0) return 0;
-  const double facets = facetProbability(m, woLocal.z);
+  const auto [facets, behind] = lobeChoice(m, woLocal.z);
   if (wiLocal.z < 0) {
     if (m.transmission == 0 || transmitsDelta(m)) return 0;
-    return facets * transmittedByFacets(m, woLocal, wiLocal).pdf;
+    return facets * transmittedByFacets(m, woLocal, wiLocal).pdf + behind * -wiLocal.z / pi;
   }
-  double pdf = (1 - facets) * wiLocal.z / pi;
+  double pdf = (1 - facets - behind) * wiLocal.z / pi;
   if (!isMirror(m)) {
     const glm::dvec3 wm = glm::normalize(woLocal + wiLocal);
     pdf += facets * reflectionShare(m, glm::dot(woLocal, wm)) * pdfVisibleNormal(woLocal, wm, m.width) /
@@ -239,7 +328,7 @@ double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm:
 BsdfSample sampleBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, double uLobe, const glm::dvec2& u) {
   BsdfSample result;
   if (woLocal.z <= 0) return result;
-  const double facets = facetProbability(m, woLocal.z);
+  const auto [facets, behind] = lobeChoice(m, woLocal.z);
   if (uLobe < facets) {
     const glm::dvec3 wm = isMirror(m) ? glm::dvec3(0, 0, 1) : sampleVisibleNormal(woLocal, m.width, u);
     const double reflected = reflectionShare(m, glm::dot(woLocal, wm));
@@ -254,8 +343,12 @@ BsdfSample sampleBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, dou
     const double radius = std::sqrt(u.x);
     const double phi = 2 * pi * u.y;
     result.wiLocal = {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1 - u.x)};
+    if (uLobe < facets + behind) {
+      result.wiLocal.z = -result.wiLocal.z;
+      if (!m.thinWalled) result.eta = m.innerIor / m.outerIor;
+    }
   }
-  if (result.wiLocal.z <= 0) return result;
+  if (result.wiLocal.z <= 0 && uLobe < facets) return result;
   result.pdfSolidAngle = pdfBsdf(m, woLocal, result.wiLocal);
   if (result.pdfSolidAngle <= 0) return result;
   result.weight = evalBsdf(m, woLocal, result.wiLocal) / result.pdfSolidAngle;

@@ -25,6 +25,7 @@ struct MetallicRoughness {
   ThinFilm film;
   glm::dvec3 conductorN{0}; ///< of the metal; 0: it reflects its base color
   glm::dvec3 conductorK{0};
+  bool multipleScattering = true;
 };
 
 struct BsdfSample {
@@ -59,8 +60,11 @@ struct BsdfSample {
 /// f |cos wi| of the continuous lobes for radiance, 0 unless wo lies above the surface; wi.z < 0 is transmission.
 [[nodiscard]] glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 
-/// The part of it that the diffuse lobe scatters.
+/// The part of it, on wo's side, of the lobes that follow the cosine: the diffuse one and multiple scattering.
 [[nodiscard]] glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
+
+/// Mean share of light that passes the dielectric coat over the diffuse lobe.
+[[nodiscard]] double meanCoatTransmission(const MetallicRoughness& m);
 
 /// Density of sampleBsdf's continuous lobes per steradian of wi, with their selection probabilities.
 [[nodiscard]] double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);

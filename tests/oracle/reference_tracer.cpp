@@ -42,6 +42,7 @@ public:
   /// 10).
   [[nodiscard]] glm::dvec3 trace(Ray ray, RandomStream& random) const {
     glm::dvec3 radiance(0), beta(1);
+    int channel = -1;    // which color the path carries alone; -1: all
     double etaScale = 1; // squared index of the path's medium over that at the camera: radiance / index^2 is kept
     ScatterSample last;
     last.delta = true; // emission seen from the camera has no other way to be found
@@ -53,12 +54,13 @@ public:
           radiance += beta * environment_->radiance(-wo) * hitWeight(last, lights_.pdfEnvironment(-wo));
         return radiance;
       }
-      const SurfacePoint point = evaluateSurface(scene_, tree_.triangles()[hit.triangle], hit, wo);
+      SurfacePoint point = evaluateSurface(scene_, tree_.triangles()[hit.triangle], hit, wo);
       if (point.unlit) return radiance + beta * point.emission;
       if (point.emission != glm::dvec3(0))
         radiance += beta * point.emission * hitWeight(last, lights_.pdfTriangle(hit.triangle, hit.t, -wo));
       if (depth >= settings_.maxDepth) return radiance;
 
+      disperse(point.material, channel, beta, random);
       const Scattering scattering(point, wo);
       radiance += beta * directLight(point, hit.triangle, scattering, random);
       last = scattering.sample(random);
@@ -75,6 +77,18 @@ public:
   }
 
 private:
+  /// Gives dispersive glass the index of the path's channel, which the first one met chooses. Source: Khronos,
+  /// KHR_materials_dispersion.
+  static void disperse(SurfaceMaterial& material, int& channel, glm::dvec3& beta, RandomStream& random) {
+    if (material.dispersion == 0 || material.thinWalled || material.transmission == 0 || material.ior <= 1) return;
+    if (channel < 0) {
+      channel = std::min(static_cast<int>(3 * random.next()), 2);
+      for (int c = 0; c < 3; ++c) beta[c] *= c == channel ? 3 : 0;
+    }
+    const double halfSpread = (material.ior - 1) * 0.025 * material.dispersion;
+    material.ior = std::max(1.0, material.ior + (channel - 1) * halfSpread);
+  }
+
   [[nodiscard]] bool covers(const Hit& hit, RandomStream& random) const {
     const Triangle& triangle = tree_.triangles()[hit.triangle];
     if (triangle.opaque) return true;

@@ -78,6 +78,7 @@ SurfaceMaterial evaluateMaterial(const Attributes& at) {
   if (source.transmission.texture.present())
     result.transmission *= at.texture(source.transmission.texture, Encoding::Linear).x;
   result.thinWalled = source.volume.thickness == 0;
+  result.dispersion = source.dispersion;
   return result;
 }
 

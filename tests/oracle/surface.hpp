@@ -23,6 +23,7 @@ struct SurfaceMaterial {
   double sheenRoughness = 0;
   double transmission = 0;
   bool thinWalled = true;
+  double dispersion = 0; ///< 20 / Abbe number
 };
 
 struct SurfacePoint {

@@ -1,6 +1,7 @@
 // Transmission in whole paths: slabs with closed forms, furnaces, and the double-precision tracer.
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "support/render.hpp"
@@ -127,6 +128,81 @@ TEST(RenderGlass, LightIsFoundThroughRoughGlassByEveryTechnique) {
 TEST(RenderGlass, Test33InsideGlassAFurnaceShowsTheSquaredIndex) {
   const Camera inside = lookAt({0.1, 0.05, -0.1}, {0.5, 0.07, -0.12}, 0.5);
   EXPECT_TRUE(pixelMeanIs(renderImage(glassBoxInFurnace(glass(0)), inside, 16, 16, 256), "G", 2.25, 0.03));
+}
+
+// A row of flat-faced balls for each lossless material, roughness rising along it: every view of every facet is 1.
+TEST(RenderGlass, Test20LosslessMaterialsAreInvisibleInAFurnace) {
+  constexpr uint32_t kCell = 8;
+  const float roughnesses[] = {0, 0.05f, 0.2f, 0.5f, 1};
+  Scene scene;
+  scene.environment = constantEnvironment(glm::vec3(1));
+  for (uint32_t column = 0; column < 5; ++column) {
+    const float roughness = roughnesses[column];
+    const Material rows[] = {metal(glm::vec3(1), roughness), dielectric(glm::vec3(1), roughness), glass(roughness),
+                             thinGlass(roughness)};
+    for (uint32_t row = 0; row < 4; ++row)
+      addPrimitive(scene, sphere(1, 12, false, false, addMaterial(scene, rows[row])),
+                   glm::translate(glm::dmat4(1), glm::dvec3(2.0 * column - 4, 3 - 2.0 * row, 0)));
+  }
+  const Camera camera = orthographicLookAt({0, 0, 10}, {0, 0, 0}, 5, 4);
+  const Image image = renderImage(scene, camera, 5 * kCell, 4 * kCell, 256);
+  const std::vector<float> values = plane(image, "G");
+  for (uint32_t row = 0; row < 4; ++row) {
+    for (uint32_t column = 0; column < 5; ++column) {
+      Moments cell;
+      for (uint32_t i = 0; i < kCell * kCell; ++i)
+        cell.add(double(values[(row * kCell + i / kCell) * 5 * kCell + column * kCell + i % kCell]));
+      EXPECT_LT(cell.standardError(), 0.002) << row << ", roughness " << roughnesses[column];
+      EXPECT_NEAR(cell.mean(), 1, 0.01) << row << ", roughness " << roughnesses[column];
+    }
+  }
+}
+
+// KHR_materials_dispersion: each color is the render of a glass with its own index, (ior - 1) (1 -+ 0.025 dispersion)
+// + 1.
+TEST(RenderGlass, DispersionIsThreeMonochromeRenders) {
+  const auto scene = [](float ior, float dispersion) {
+    Scene result;
+    Material material = glass(0.2f, ior);
+    material.dispersion = dispersion;
+    addPrimitive(result, box({-0.5, 0.5, -0.5}, {0.5, 1, 0.5}, false, addMaterial(result, material)),
+                 glm::rotate(glm::dmat4(1), 0.5, glm::dvec3(0, 0, 1)));
+    addPrimitive(result, quad({-1, 0.05, 0.5}, {0.9, 0, 0}, {0, 0, -1}, addMaterial(result, emitter(glm::vec3(1)))));
+    return result;
+  };
+  const Camera camera = lookAt({0.2, 3, 0.5}, {-0.2, 0.7, 0}, 0.35);
+  constexpr float kDispersion = 8; // iors 1.4, 1.5, 1.6
+  const MeasuredImage dispersed = measured(renderImage(scene(1.5f, kDispersion), camera, 8, 8, 4096));
+  MeasuredImage expected = dispersed;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    const float ior = 1.5f + 0.1f * (static_cast<float>(channel) - 1);
+    const MeasuredImage mono = measured(
+        renderImage(scene(ior, 0), camera, 8, 8, 1024, {.estimator = {.filter = PixelFilter::Box, .seed = 7}}));
+    for (size_t i = 0; i < mono.pixels.size(); ++i) expected.pixels[i][channel] = mono.pixels[i][channel];
+  }
+  EXPECT_TRUE(sameImage(dispersed, expected, {.powerFloor = 0.03}));
+  const auto reference = oracle::renderReference(scene(1.5f, kDispersion), camera, 8, 8, 2048, {.seed = 3});
+  EXPECT_TRUE(sameImage(dispersed, measured(reference), {.powerFloor = 0.06}));
+}
+
+// A slab's shift grows with the index: an emitter's edge between the exits of red and blue is seen in one color.
+TEST(RenderGlass, DispersionBendsBlueMoreThanRed) {
+  Scene scene;
+  Material material = glass(0);
+  material.dispersion = 8;
+  addPrimitive(scene, box({-100, 0, -100}, {100, 1, 100}, false, addMaterial(scene, material)));
+  const auto exitAt = [](double ior) { return -std::tan(std::asin(std::sin(45 * kDegree) / ior)) - 1e-3; };
+  const double edge = 0.5 * (exitAt(1.5) + exitAt(1.6));
+  addPrimitive(scene, quad({edge - 1, -1e-3, 1}, {1, 0, 0}, {0, 0, -2}, addMaterial(scene, emitter(glm::vec3(1)))));
+  const Camera camera = orthographicLookAt({1, 2, 0}, {0, 1, 0}, 1e-6, 1e-6);
+  const Image image = renderImage(scene, camera, 4, 4, 256, {.estimator = {.filter = PixelFilter::Box, .maxDepth = 2}});
+  double red = 0, green = 0, blue = 0;
+  for (const float value : plane(image, "R")) red += double(value) / 16;
+  for (const float value : plane(image, "G")) green += double(value) / 16;
+  for (const float value : plane(image, "B")) blue += double(value) / 16;
+  EXPECT_NEAR(red, 0.9, 0.1); // further out along the ray: red bends least
+  EXPECT_NEAR(green, 0.9, 0.1);
+  EXPECT_EQ(blue, 0);
 }
 
 TEST(RenderGlass, SpecializedKernelsGiveTheBitsOfTheFullOnes) {

@@ -143,6 +143,13 @@ struct Material {
   TextureRef specularColorTexture; ///< sRGB
 };
 
+/// Whether the index differs by color and matters: thin walls do not bend light.
+[[nodiscard]] bool isDispersive(const Material& material);
+
+/// The indices of red, green and blue. Source: Khronos, KHR_materials_dispersion: Cauchy's formula through the Abbe
+/// number 20 / dispersion, spread evenly.
+[[nodiscard]] glm::vec3 channelIors(const Material& material);
+
 /// The texture uses of a material, present or not, for loops over all of them.
 [[nodiscard]] std::vector<TextureRef*> textureRefs(Material& material);
 [[nodiscard]] std::vector<const TextureRef*> textureRefs(const Material& material);

@@ -25,6 +25,7 @@ struct EstimatorSettings {
   MisHeuristic misHeuristic = MisHeuristic::Power;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;
+  bool multipleScattering = true; ///< between the facets of rough surfaces; false loses their light
   uint64_t seed = 0;
 };
 

@@ -56,6 +56,7 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
   const bool transmits = material.transmission.factor > 0 && material.ior >= 1 &&
                          (material.metallic < 1 || material.metallicRoughnessTexture.present());
   if (transmits) features.add(Feature::kHasTransmission);
+  if (transmits && isDispersive(material)) features.add(Feature::kHasDispersion);
   const bool hasFilm = material.iridescence.factor > 0;
   if (material.metallic == 0 && material.specular == 0 && !transmits && !hasFilm) return;
   features.add(Feature::kHasSpecular);

@@ -35,4 +35,14 @@ std::optional<uint32_t> tangentUvSet(const Material& material) {
   return std::nullopt;
 }
 
+bool isDispersive(const Material& material) {
+  return material.dispersion > 0 && material.volume.thickness > 0 && material.ior > 1;
+}
+
+glm::vec3 channelIors(const Material& material) {
+  const float halfSpread = isDispersive(material) ? (material.ior - 1) * 0.025f * material.dispersion : 0.0f;
+  // Large dispersions would take red below the index of air.
+  return glm::max(material.ior + halfSpread * glm::vec3(-1, 0, 1), glm::vec3(1));
+}
+
 } // namespace isophote

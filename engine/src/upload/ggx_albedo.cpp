@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "shared/bsdf_constants.h"
+#include "upload/cosine_mean.hpp"
 
 namespace isophote {
 namespace {
@@ -59,21 +60,6 @@ double columnMu(uint32_t column) {
   return root * root;
 }
 
-/// The mean over the hemisphere of the row's values taken linear in sqrt(mu), as the device reads them: with x =
-/// sqrt(mu), 2 mu dmu = 4 x^3 dx, integrated exactly over each interval. So the diffuse lobe on the device loses
-/// exactly what its coat reflects there.
-glm::dvec2 cosineMean(const glm::dvec2* row) {
-  glm::dvec2 sum(0);
-  for (uint32_t c = 0; c + 1 < gpu::kGgxAlbedoMuCount; ++c) {
-    const double x0 = c / double(gpu::kGgxAlbedoMuCount - 1);
-    const double x1 = (c + 1) / double(gpu::kGgxAlbedoMuCount - 1);
-    const glm::dvec2 slope = (row[c + 1] - row[c]) / (x1 - x0);
-    const glm::dvec2 offset = row[c] - slope * x0;
-    sum += offset * (std::pow(x1, 4) - std::pow(x0, 4)) + slope * 0.8 * (std::pow(x1, 5) - std::pow(x0, 5));
-  }
-  return sum;
-}
-
 std::vector<glm::vec2> computeTable() {
   std::vector<glm::vec2> table;
   std::vector<glm::vec2> means;
@@ -86,7 +72,7 @@ std::vector<glm::vec2> computeTable() {
       row[c] = r == 0 ? glm::dvec2(1 - pow5(1 - mu), pow5(1 - mu)) : directionalAlbedo(mu, roughness * roughness);
       table.emplace_back(row[c]);
     }
-    means.emplace_back(cosineMean(row.data()));
+    means.emplace_back(cosineMean(row));
   }
   table.insert(table.end(), means.begin(), means.end());
   return table;

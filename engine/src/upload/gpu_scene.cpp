@@ -59,6 +59,7 @@ std::vector<ArrayUpload> arrayUploads(const PackedScene& packed, gpu::SceneView&
       arrayUpload("scene.ggxAlbedo", packed.ggxAlbedo, view.ggxAlbedo),
       arrayUpload("scene.clearcoatTable", packed.clearcoatTable, view.clearcoatTable),
       arrayUpload("scene.sheenTable", packed.sheenTable, view.sheenTable),
+      arrayUpload("scene.glassLoss", packed.glassLoss, view.glassLoss),
   };
   std::erase_if(all, [](const ArrayUpload& upload) { return upload.bytes.empty(); });
   return all;

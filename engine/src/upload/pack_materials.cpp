@@ -1,5 +1,8 @@
 #include "upload/pack_materials.hpp"
 
+#include "shared/bsdf_constants.h"
+#include "upload/glass_loss.hpp"
+
 #include <map>
 #include <tuple>
 
@@ -83,10 +86,31 @@ private:
     const Volume& volume = material.volume;
     record.thickness = volume.thickness;
     record.thicknessSlot = slot(volume.thicknessTexture, false);
+    record.glassLoss = glassLoss(material);
     record.attenuationColor = volume.attenuationColor;
     record.attenuationDistance = volume.attenuationDistance;
     record.multiscatterColor = volume.multiscatterColor;
     record.scatterAnisotropy = volume.scatterAnisotropy;
+  }
+
+  // Where the table for the material's index begins. Thin walls refract nothing, and smooth glass loses nothing.
+  uint32_t glassLoss(const Material& material) {
+    const bool smooth = material.roughness * material.roughness < gpu::kMirrorAlpha;
+    if (material.transmission.factor == 0 || material.volume.thickness == 0 || material.ior < 1 || smooth)
+      return gpu::kInvalidIndex;
+    const bool textured = material.metallicRoughnessTexture.present();
+    const auto [entry, isNew] =
+        glassLosses_.try_emplace(std::make_tuple(material.ior, material.dispersion, material.roughness, textured),
+                                 static_cast<uint32_t>(packed_.glassLoss.size()));
+    if (isNew) {
+      const glm::vec3 iors = channelIors(material);
+      for (int channel = 0; channel < (isDispersive(material) ? 3 : 1); ++channel) {
+        const std::vector<glm::vec2> table =
+            glassLossTable(iors[channel], {textured ? 0 : material.roughness, material.roughness});
+        packed_.glassLoss.insert(packed_.glassLoss.end(), table.begin(), table.end());
+      }
+    }
+    return entry->second;
   }
 
   uint32_t slot(const TextureRef& use, bool srgb) {
@@ -109,6 +133,8 @@ private:
   const Scene& scene_;
   PackedScene& packed_;
   uint32_t uvSets_ = 0;
+  std::map<std::tuple<float, float, float, bool>, uint32_t>
+      glassLosses_; ///< by index, dispersion, roughness and whether that is textured
   std::map<std::tuple<uint32_t, Wrap, Wrap, Filter, bool>, uint32_t> textures_;
 };
 
