@@ -34,4 +34,26 @@ float fresnelDielectric(const float cosI, const float eta) {
   return min(0.5 * s * s * (1.0 + p * p), 1.0);
 }
 
+/// Reflectance of unpolarized light at the boundary between a dielectric and a conductor.
+///
+/// Source: Born and Wolf 1999, "Principles of Optics", section 14.2, eq. 19 to 22, with a = n cos and b = k cos of the
+/// complex angle inside eliminated.
+/// @param cosI on the incident side, in [0, 1]
+/// @param n, k complex index n + ik over the index in front, n in [1e-3, 1e3], k in [0, 1e3]
+/// @return     in [0, 1]; exactly 1 at cosI = 0
+/// Accuracy: 2e-6 absolute; equal to fresnelDielectric where k = 0; measured in tests/glsl/conductor_test.cpp.
+float fresnelConductor(const float cosI, const float n, const float k) {
+  const float cos2 = cosI * cosI;
+  const float sin2 = 1.0 - cos2;
+  const float difference = (n - 1.0) * (n + 1.0) - k * k + cos2; // a^2 - b^2
+  const float product = 2.0 * n * k;                             // 2 a b
+  const float sum = length(vec2(difference, product));           // a^2 + b^2
+  // Whichever form of a is no difference of near equals; a = 0 where both are.
+  const float a = difference >= 0.0 ? sqrt(0.5 * (sum + difference)) : product * inversesqrt(2.0 * (sum - difference));
+  const float twoACos = 2.0 * a * cosI;
+  const float s = (sum + cos2 - twoACos) / (sum + cos2 + twoACos);
+  const float p = (cos2 * sum + sin2 * sin2 - twoACos * sin2) / (cos2 * sum + sin2 * sin2 + twoACos * sin2);
+  return clamp(0.5 * s * (1.0 + p), 0.0, 1.0);
+}
+
 #endif

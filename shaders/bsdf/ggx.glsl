@@ -8,6 +8,9 @@
 #include "math/constants.glsl"
 #include "math/trigonometry.glsl"
 
+// A direction closer to the horizon than this counts as below it: single precision cannot tell.
+const float kMinCosine = 1e-7;
+
 /// Density of microfacet normals, per steradian, so that the integral of D cos over the hemisphere is 1.
 ///
 /// Source: Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), eq. 84,

@@ -33,6 +33,37 @@ float etaInAir(const SceneRef scene, const SurfaceHit surface, const uint channe
   return relativeIor(ior, surface.frontFace || !boundary || ior < 1.0);
 }
 
+// What lies over the base: of the clearcoat factor R, roughness G; of the sheen color RGB, roughness A.
+void addLayers(const SceneRef scene, const SurfaceHit surface, const MaterialRecord record, const Geometry geometry,
+               inout SurfaceBsdf bsdf) {
+  bsdf.insideSolid = kHasTransmission && bsdf.base.glass > 0.0 && !bsdf.base.thinWalled && !surface.frontFace;
+  bsdf.coat = Clearcoat(0.0, 0.0, vec3(0.0, 0.0, 1.0));
+  if (kHasClearcoat && record.clearcoat > 0.0) {
+    bsdf.coat.amount = record.clearcoat * materialTexel(scene, surface, geometry, record.clearcoatSlot).r;
+    bsdf.coat.roughness =
+        record.clearcoatRoughness * materialTexel(scene, surface, geometry, record.clearcoatRoughnessSlot).g;
+  }
+  bsdf.sheen = Sheen(vec3(0.0), 0.0);
+  if (kHasSheen && record.sheenColor != vec3(0.0)) {
+    bsdf.sheen.color = record.sheenColor * materialTexel(scene, surface, geometry, record.sheenColorSlot).rgb;
+    bsdf.sheen.roughness = record.sheenRoughness * materialTexel(scene, surface, geometry, record.sheenRoughnessSlot).a;
+  }
+}
+
+// KHR_materials_anisotropy: RG the direction, 2t - 1, in the tangent plane, B the strength.
+vec3 anisotropyTexel(const SceneRef scene, const SurfaceHit surface, const Geometry geometry, const uint slot) {
+  return readSlot(scene, geometry, surface.primitiveIndex, surface.barycentrics, slot, vec4(1.0, 0.5, 1.0, 1.0)).rgb;
+}
+
+// KHR_materials_iridescence: factor R, thickness G.
+Iridescence iridescenceAt(const SceneRef scene, const SurfaceHit surface, const MaterialRecord record,
+                          const Geometry geometry) {
+  const float thickness = materialTexel(scene, surface, geometry, record.iridescenceThicknessSlot).g;
+  return Iridescence(record.iridescence * materialTexel(scene, surface, geometry, record.iridescenceSlot).r,
+                     record.iridescenceIor,
+                     mix(record.iridescenceThicknessMinimum, record.iridescenceThicknessMaximum, thickness));
+}
+
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
 /// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
 /// reflectance.
@@ -56,6 +87,10 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
     material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g, eta,
                                            specular, specularColor);
+    if (kHasAnisotropy && record.anisotropyStrength > 0.0) {
+      setAnisotropy(material.bsdf.base,
+                    record.anisotropyStrength * anisotropyTexel(scene, surface, geometry, record.anisotropySlot).b);
+    }
     if (kHasTransmission && ior >= 1.0) {
       const float transmission =
           record.transmission * materialTexel(scene, surface, geometry, record.transmissionSlot).r;
@@ -68,9 +103,16 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const
                      surface.frontFace);
       }
     }
+    if (kHasConductor && (record.flags & kMaterialConductor) != 0u) {
+      setConductor(material.bsdf.base, record.conductorN, record.conductorK);
+    }
+    if (kHasIridescence && record.iridescence > 0.0) {
+      setIridescence(material.bsdf.base, iridescenceAt(scene, surface, record, geometry));
+    }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }
+  addLayers(scene, surface, record, geometry, material.bsdf);
   return material;
 }
 
@@ -93,15 +135,15 @@ vec3 bendTowards(const vec3 ns, const vec3 ng, const vec3 wo) {
   return least * wo + sqrt(1.0 - least * least) * inversesqrt(length2) * across;
 }
 
-/// Returns the unit normal to shade with, on wo's side: interpolated, bumped by the normal map, bent towards wo.
+/// Returns the unit normal to shade with, on wo's side: interpolated, bumped by a normal map, bent towards wo.
 ///
 /// The map's texel t gives normalize((2 t - 1) * (scale, scale, 1)) in the frame (tangent, w cross(ns, tangent), ns) of
 /// the front side (glTF 2.0, section 3.9.3); a back side has the negative of it.
 /// @param surface as seen from wo
-vec3 shadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
+/// @param slot    of the map, or kInvalidIndex
+vec3 bumpedNormal(const SceneRef scene, const SurfaceHit surface, const uint slot, const vec3 wo) {
   vec3 ns = surface.ns;
   if (kHasNormalMaps) {
-    const uint slot = MaterialRef(scene.view.materials).items[surface.material].normalSlot;
     if (slot != kInvalidIndex) {
       const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
       const float scale = TextureSlotRef(scene.view.textureSlots).items[slot].scale;
@@ -114,6 +156,38 @@ vec3 shadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo
   }
   if (kHasShadingNormals || kHasNormalMaps) ns = bendTowards(ns, surface.ng, wo);
   return ns;
+}
+
+/// The local frame of scattering: z the shading normal, x the direction of anisotropy where the surface has one.
+Frame shadingFrame(const SceneRef scene, const SurfaceHit surface, const vec3 ns) {
+  if (kHasAnisotropy) {
+    const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
+    if (record.anisotropyStrength > 0.0) {
+      const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
+      const vec2 direction = 2.0 * anisotropyTexel(scene, surface, geometry, record.anisotropySlot).rg - 1.0;
+      const vec2 turn = sinCosPi(2.0 * fract(record.anisotropyRotation * kInvTwoPi));
+      const vec2 turned =
+          vec2(turn.y * direction.x - turn.x * direction.y, turn.x * direction.x + turn.y * direction.y);
+      const float side = surface.frontFace ? 1.0 : -1.0;
+      const Frame front = frameFromNormalTangent(side * ns, surface.tangent.xyz, surface.tangent.w);
+      return frameFromNormalTangent(ns, turned.x * front.tangent + turned.y * front.bitangent, 1.0);
+    }
+  }
+  return frameFromNormal(ns);
+}
+
+/// The base's shading normal.
+vec3 shadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
+  const uint slot =
+      kHasNormalMaps ? MaterialRef(scene.view.materials).items[surface.material].normalSlot : kInvalidIndex;
+  return bumpedNormal(scene, surface, slot, wo);
+}
+
+/// The clearcoat's: it has a normal map of its own, or none.
+vec3 clearcoatNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
+  const uint slot =
+      kHasNormalMaps ? MaterialRef(scene.view.materials).items[surface.material].clearcoatNormalSlot : kInvalidIndex;
+  return bumpedNormal(scene, surface, slot, wo);
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include "bsdf/ggx.glsl"
 #include "bsdf/ggx_albedo.glsl"
 #include "bsdf/glass_loss.glsl"
+#include "bsdf/iridescence.glsl"
 #include "math/constants.glsl"
 #include "sampling/warp.glsl"
 #include "shared/bsdf_constants.h"
@@ -20,17 +21,30 @@ struct MetallicRoughness {
   vec3 baseColor;
   float metallic;
   vec3 f0;     // of all facets but those of glass
-  float alpha; // roughness squared; below kMirrorAlpha the specular lobe is a delta mirror
+  float alpha; // roughness squared, of anisotropic facets the geometric mean of both widths; below kMirrorAlpha the
+               // specular lobe is a delta mirror
+  vec2 width;  // alpha along x and y
   vec3 f90;
   float diffuse;      // share of the surface that has a diffuse lobe under its coat
   float dielectricF0; // of the coat over the diffuse lobe: its largest channel, so that no channel gains energy
   float dielectricF90;
-  vec3 glassF0;     // at normal incidence; f90 is dielectricF90
+  vec3 glassF0;     // of dielectric facets at normal incidence
+  float glassF90;   // and at grazing
   float glass;      // share of the surface whose facets transmit
   float eta;        // index behind the surface over the index in front; of thin walls that of the wall
   bool thinWalled;  // both boundaries in one: transmission does not bend
   uint lossInFront; // half tables of glassLoss for light from wo's side and from the other; kInvalidIndex: none
   uint lossBehind;
+  Iridescence film;
+  vec3 conductorN; // complex index of the metal; 0: it reflects its base color
+  vec3 conductorK;
+};
+
+/// Of the base's continuous lobes, f |cos wi| in two parts, which the layers above pass differently.
+struct BaseValue {
+  vec3 facets;         // of single scattering by microfacets
+  vec3 diffuse;        // of the lobes that follow the cosine: the diffuse one, and multiple scattering
+  float pdfSolidAngle; // of sampleBase, per steradian of wi
 };
 
 /// Of the continuous lobes. f scatters radiance: across a boundary of index ratio eta it carries the factor 1 / eta^2.
@@ -48,9 +62,6 @@ struct BsdfSample {
   float eta;  // index on wi's side over the index on wo's: 1 unless the sample is refracted
 };
 
-// A direction closer to the horizon than this counts as below it: single precision cannot tell.
-const float kMinCosine = 1e-7;
-
 /// Derives the lobes' parameters from glTF's factors after texturing.
 ///
 /// Source: Khronos, glTF 2.0 appendix B; KHR_materials_ior; KHR_materials_specular.
@@ -65,17 +76,22 @@ MetallicRoughness metallicRoughness(const vec3 baseColor, const float metallic, 
   m.baseColor = baseColor;
   m.metallic = metallic;
   m.alpha = roughness * roughness;
+  m.width = vec2(m.alpha);
   m.f0 = mix(dielectric, baseColor, metallic);
   m.f90 = vec3(mix(specular, 1.0, metallic));
   m.diffuse = 1.0 - metallic;
   m.dielectricF0 = max(dielectric.x, max(dielectric.y, dielectric.z));
   m.dielectricF90 = specular;
   m.glassF0 = dielectric;
+  m.glassF90 = specular;
   m.glass = 0.0;
   m.eta = 1.0;
   m.thinWalled = true;
   m.lossInFront = kInvalidIndex;
   m.lossBehind = kInvalidIndex;
+  m.film = Iridescence(0.0, 1.0, 0.0);
+  m.conductorN = vec3(0.0);
+  m.conductorK = vec3(0.0);
   return m;
 }
 
@@ -87,6 +103,19 @@ void setGlassLoss(inout MetallicRoughness m, const uint table, const bool frontF
   if (table == kInvalidIndex) return;
   m.lossInFront = frontFace ? table : table + kGlassLossHalf;
   m.lossBehind = frontFace ? table + kGlassLossHalf : table;
+}
+
+/// Widens the facets' slopes along x.
+///
+/// Source: Khronos, KHR_materials_anisotropy: mix(alpha, 1, strength^2) along x, alpha along y. The albedo tables are
+/// read at the geometric mean.
+/// @param strength in [0, 1]
+void setAnisotropy(inout MetallicRoughness m, const float strength) {
+  if (strength <= 0.0) return;
+  const vec2 width = vec2(mix(m.alpha, 1.0, strength * strength), m.alpha);
+  if (width.x < kMirrorAlpha) return;
+  m.width = max(width, vec2(kMirrorAlpha));
+  m.alpha = sqrt(m.width.x * m.width.y);
 }
 
 /// Turns a share of the dielectric into glass: facets that reflect by the exact Fresnel equations and transmit the
@@ -103,6 +132,47 @@ void setTransmission(inout MetallicRoughness m, const float transmission, const 
   m.glass = (1.0 - m.metallic) * transmission;
   m.eta = eta;
   m.thinWalled = thinWalled;
+}
+
+bool isConductor(const MetallicRoughness m) { return kHasConductor && m.conductorN.x > 0.0; }
+
+bool hasFilm(const MetallicRoughness m) { return kHasIridescence && m.film.amount > 0.0; }
+
+vec3 metalReflectance(const MetallicRoughness m, const float cosine) {
+  if (!isConductor(m)) return fresnelSchlick(m.baseColor, vec3(1.0), cosine);
+  return vec3(fresnelConductor(cosine, m.conductorN.x, m.conductorK.x),
+              fresnelConductor(cosine, m.conductorN.y, m.conductorK.y),
+              fresnelConductor(cosine, m.conductorN.z, m.conductorK.z));
+}
+
+/// What facets other than glass reflect.
+vec3 facetReflectance(const MetallicRoughness m, const float cosine) {
+  if (!hasFilm(m) && !isConductor(m)) return fresnelSchlick(m.f0, m.f90, cosine);
+  vec3 metal = metalReflectance(m, cosine);
+  vec3 dielectric = fresnelSchlick(m.glassF0, vec3(m.glassF90), cosine);
+  if (hasFilm(m)) {
+    metal = mix(metal, filmReflectance(m.film, cosine, metalReflectance(m, 1.0)), m.film.amount);
+    dielectric = mix(dielectric, filmReflectance(m.film, cosine, m.glassF0), m.film.amount);
+  }
+  return m.diffuse * dielectric + m.metallic * metal;
+}
+
+/// Gives the metal a complex index of refraction.
+void setConductor(inout MetallicRoughness m, const vec3 n, const vec3 k) {
+  m.conductorN = n;
+  m.conductorK = k;
+  m.f0 = facetReflectance(m, 1.0);
+}
+
+/// Puts a thin film on the facets. The coat over the diffuse lobe is then taken for the brightest that interference can
+/// make it, so that no color gains energy.
+void setIridescence(inout MetallicRoughness m, const Iridescence film) {
+  if (film.amount <= 0.0) return;
+  m.film = film;
+  m.dielectricF0 = mix(m.dielectricF0, max(m.dielectricF0, filmBound(film, m.glassF0)), film.amount);
+  m.dielectricF90 = mix(m.dielectricF90, 1.0, film.amount);
+  m.f90 = mix(m.f90, vec3(m.diffuse + m.metallic), film.amount);
+  m.f0 = facetReflectance(m, 1.0);
 }
 
 bool isMirror(const MetallicRoughness m) { return kHasMirror && m.alpha < kMirrorAlpha; }
@@ -122,7 +192,10 @@ vec3 glassReflectance(const MetallicRoughness m, const float cosine) {
   if (exact >= 1.0) return vec3(1.0);
   const float amplitude = (m.eta - 1.0) / (m.eta + 1.0);
   const float normal = amplitude * amplitude;
-  return m.glassF0 + (vec3(m.dielectricF90) - m.glassF0) * max((exact - normal) / (1.0 - normal), 0.0);
+  const vec3 bare = m.glassF0 + (vec3(m.glassF90) - m.glassF0) * max((exact - normal) / (1.0 - normal), 0.0);
+  if (!hasFilm(m)) return bare;
+  const float sin2Outside = (1.0 - cosine * cosine) / min(m.eta * m.eta, 1.0); // from inside, by Snell's law
+  return mix(bare, filmReflectance(m.film, sqrt(max(1.0 - sin2Outside, 0.0)), m.glassF0), m.film.amount);
 }
 
 /// What the facets under one cosine do with light.
@@ -134,7 +207,7 @@ struct FacetScattering {
 
 /// @param cosine between wo and the facet's normal
 FacetScattering scatterAtFacet(const MetallicRoughness m, const float cosine) {
-  FacetScattering facet = FacetScattering(fresnelSchlick(m.f0, m.f90, cosine), vec3(0.0), 1.0);
+  FacetScattering facet = FacetScattering(facetReflectance(m, cosine), vec3(0.0), 1.0);
   if (!kHasTransmission || m.glass == 0.0) return facet;
   const vec3 reflectance = glassReflectance(m, cosine);
   facet.reflected += m.glass * reflectance;
@@ -234,8 +307,8 @@ BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const flo
   shares.lost = lostBetweenFacets(shares.albedo);
   shares.meanLost = max(lostBetweenFacets(mean), 1e-6);
   const float kept = 1.0 - shares.meanLost;
-  shares.multiple = m.metallic * multipleReflectance(m.baseColor, vec3(1.0), kept) +
-                    m.diffuse * multipleReflectance(m.glassF0, vec3(m.dielectricF90), kept);
+  shares.multiple = m.metallic * multipleReflectance(metalReflectance(m, 1.0), vec3(1.0), kept) +
+                    m.diffuse * multipleReflectance(m.glassF0, vec3(m.glassF90), kept);
   shares.coatMultiple = multipleReflectance(vec3(m.dielectricF0), vec3(m.dielectricF90), kept).x;
   shares.coat = coatTransmission(m, shares.albedo, shares.coatMultiple, shares.lost);
   shares.meanCoat = max(coatTransmission(m, mean, shares.coatMultiple, lostBetweenFacets(mean)), kMinCoatTransmission);
@@ -257,32 +330,33 @@ BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const flo
   return shares;
 }
 
-BsdfValue noScattering() { return BsdfValue(vec3(0.0), 0.0); }
+BaseValue noScattering() { return BaseValue(vec3(0.0), vec3(0.0), 0.0); }
 
 // The lobes on wo's side: diffuse, multiple scattering, and the reflection by facets.
-BsdfValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
+BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
                              const vec3 woLocal, const vec3 wiLocal) {
   const vec2 albedo = ggxAlbedo(scene, wiLocal.z, albedoAlpha(m));
   const float lost = lostBetweenFacets(albedo);
   const float entering = coatTransmission(m, albedo, shares.coatMultiple, lost);
   const float cosine = kInvPi * wiLocal.z;
-  BsdfValue value;
-  value.fCos = m.baseColor * (m.diffuse * (shares.coat * entering / shares.meanCoat) * cosine) +
-               shares.multiple * (shares.lost * lost / shares.meanLost * cosine);
+  BaseValue value;
+  value.facets = vec3(0.0);
+  value.diffuse = m.baseColor * (m.diffuse * (shares.coat * entering / shares.meanCoat) * cosine) +
+                  shares.multiple * (shares.lost * lost / shares.meanLost * cosine);
   if (kHasTransmission && m.glass > 0.0) {
     const GlassMultiple glass = shares.glass;
     const float continued = glass.lost * glassLossAt(scene, m, wiLocal.z, false) / glass.meanInFront;
-    value.fCos += m.glass * (1.0 - glass.transmitted) * continued * cosine;
+    value.diffuse += m.glass * (1.0 - glass.transmitted) * continued * cosine;
   }
   value.pdfSolidAngle = (1.0 - shares.facetProbability - shares.behindProbability) * cosine;
   if (!isMirror(m)) {
     const vec3 sum = woLocal + wiLocal;
     const float twoCosine = length(sum); // 2 dot(wo, wm) of unit directions: the same from both sides to the last bit
     const vec3 wm = sum / twoCosine;
-    const vec2 width = vec2(m.alpha);
+    const vec2 width = m.width;
     const float shape = ggxD(wm, width) * ggxVisibility(woLocal, wiLocal, width) * wiLocal.z;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
-    value.fCos += facet.reflected * shape;
+    value.facets = facet.reflected * shape;
     value.pdfSolidAngle += shares.facetProbability * facet.reflectedShare * pdfVisibleReflection(woLocal, wm, width);
   }
   return value;
@@ -291,9 +365,9 @@ BsdfValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
 // Transmission by single facets, wi.z < 0: of thin walls the reflection mirrored to the other side, else refraction.
 // The density is that of choosing them with `probability`.
 // Source: Walter et al. 2007, eq. 21, for radiance; KHR_materials_transmission.
-BsdfValue evaluateFacetTransmission(const MetallicRoughness m, const float probability, const vec3 woLocal,
+BaseValue evaluateFacetTransmission(const MetallicRoughness m, const float probability, const vec3 woLocal,
                                     const vec3 wiLocal) {
-  const vec2 width = vec2(m.alpha);
+  const vec2 width = m.width;
   const vec3 above = vec3(wiLocal.xy, -wiLocal.z);
   const float visibility = ggxVisibility(woLocal, above, width) * above.z;
   if (m.thinWalled) {
@@ -301,7 +375,7 @@ BsdfValue evaluateFacetTransmission(const MetallicRoughness m, const float proba
     const float twoCosine = length(sum);
     const vec3 wm = sum / twoCosine;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
-    return BsdfValue(facet.transmitted * (ggxD(wm, width) * visibility),
+    return BaseValue(facet.transmitted * (ggxD(wm, width) * visibility), vec3(0.0),
                      probability * (1.0 - facet.reflectedShare) * pdfVisibleReflection(woLocal, wm, width));
   }
   const RefractingFacet refracting = refractingFacet(woLocal, wiLocal, m.eta);
@@ -309,29 +383,29 @@ BsdfValue evaluateFacetTransmission(const MetallicRoughness m, const float proba
   const FacetScattering facet = scatterAtFacet(m, refracting.cosO);
   const float shape = 4.0 * ggxD(refracting.wm, width) * visibility * refracting.cosO * refracting.jacobian;
   const float density = pdfVisibleNormal(woLocal, refracting.wm, width) * m.eta * m.eta * refracting.jacobian;
-  return BsdfValue(facet.transmitted * shape, probability * (1.0 - facet.reflectedShare) * density);
+  return BaseValue(facet.transmitted * shape, vec3(0.0), probability * (1.0 - facet.reflectedShare) * density);
 }
 
 // Index behind over in front, of directions.
 float refractedEta(const MetallicRoughness m) { return m.thinWalled ? 1.0 : m.eta; }
 
 // The lobes on the other side.
-BsdfValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
+BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
                                const vec3 woLocal, const vec3 wiLocal) {
   if (m.glass == 0.0 || transmitsDelta(m)) return noScattering();
-  BsdfValue value = evaluateFacetTransmission(m, shares.facetProbability, woLocal, wiLocal);
+  BaseValue value = evaluateFacetTransmission(m, shares.facetProbability, woLocal, wiLocal);
   const GlassMultiple glass = shares.glass;
   const float eta = refractedEta(m);
   const float cosine = -kInvPi * wiLocal.z;
   const float continued = glass.lost * glassLossAt(scene, m, -wiLocal.z, true) / (glass.meanBehind * eta * eta);
-  value.fCos += m.baseColor * (m.glass * glass.transmitted * continued * cosine);
+  value.diffuse = m.baseColor * (m.glass * glass.transmitted * continued * cosine);
   value.pdfSolidAngle += shares.behindProbability * cosine;
   return value;
 }
 
 /// Returns f |cos wi| and the sampling density of the continuous lobes of both sides; zeros where wo is below the
 /// surface.
-BsdfValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
+BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
   const bool transmitted = kHasTransmission && wiLocal.z < 0.0;
   if (min(woLocal.z, transmitted ? -wiLocal.z : wiLocal.z) < kMinCosine) return noScattering();
   if (kHasSpecular) {
@@ -340,13 +414,13 @@ BsdfValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const ve
     return evaluateReflection(scene, m, shares, woLocal, wiLocal);
   }
   const float density = kInvPi * wiLocal.z;
-  return BsdfValue(m.baseColor * (m.diffuse * density), density);
+  return BaseValue(vec3(0.0), m.baseColor * (m.diffuse * density), density);
 }
 
 BsdfSample absorbed() { return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0); }
 
-BsdfSample finishSample(const vec3 wiLocal, const BsdfValue value, const float eta) {
-  const vec3 weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
+BsdfSample finishSample(const vec3 wiLocal, const BaseValue value, const float eta) {
+  const vec3 weight = value.pdfSolidAngle > 0.0 ? (value.facets + value.diffuse) / value.pdfSolidAngle : vec3(0.0);
   return BsdfSample(wiLocal, weight, value.pdfSolidAngle, false, largest(weight) > 0.0, eta);
 }
 
@@ -392,7 +466,7 @@ BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec
       return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), refractedEta(m));
     }
   } else {
-    const vec3 wm = isMirror(m) ? vec3(0.0, 0.0, 1.0) : sampleVisibleNormal(woLocal, vec2(m.alpha), u);
+    const vec3 wm = isMirror(m) ? vec3(0.0, 0.0, 1.0) : sampleVisibleNormal(woLocal, m.width, u);
     const float cosine = dot(woLocal, wm);
     const FacetScattering facet = scatterAtFacet(m, cosine);
     if (kHasTransmission && uLobe >= shares.facetProbability * facet.reflectedShare) {

@@ -1,21 +1,172 @@
-// The scattering of a surface: its base, and what lies over it.
+// The scattering of a surface: a clearcoat over a sheen over the base. Formulas: docs/bsdf-layers.md, "Layers".
 //
 // Directions are unit and in the local shading frame, z the shading normal on wo's side.
 #ifndef ISOPHOTE_BSDF_SURFACE_BSDF_GLSL
 #define ISOPHOTE_BSDF_SURFACE_BSDF_GLSL
 
+#include "bsdf/clearcoat.glsl"
+#include "bsdf/layer.glsl"
 #include "bsdf/metallic_roughness.glsl"
+#include "bsdf/sheen.glsl"
 
 struct SurfaceBsdf {
   MetallicRoughness base;
+  Clearcoat coat;
+  Sheen sheen;
+  bool insideSolid; // wo is in the interior: the layers are on the other side
 };
 
 /// Whether light passes to the other side.
 bool transmits(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
 
+const bool kHasLayers = kHasClearcoat || kHasSheen;
+
+/// A surface that is its base alone.
+SurfaceBsdf bareSurface(const MetallicRoughness base) {
+  return SurfaceBsdf(base, Clearcoat(0.0, 0.0, vec3(0.0, 0.0, 1.0)), Sheen(vec3(0.0), 0.0), false);
+}
+
+/// What does not depend on wi: the layers as seen from wo.
+struct LayersAtWo {
+  Frame coatFrame;
+  vec3 woCoat;
+  LayerCell coatCell;
+  LayerCell sheenCell;
+  LayerBase base;
+  float coatProbability;  // of sampling the coat
+  float sheenProbability; // of sampling the sheen where not the coat; the rest is the base's
+};
+
+bool hasLayers(const SurfaceBsdf bsdf) {
+  return kHasLayers && ((kHasClearcoat && bsdf.coat.amount > 0.0) || (kHasSheen && sheenAmount(bsdf.sheen) > 0.0));
+}
+
+/// Maps a uniform number beyond `probability` back to [0, 1).
+float choiceRemainder(const float u, const float probability) {
+  return min((u - probability) / (1.0 - probability), 1.0 - 5.9604644775390625e-8); // 2^-24 below 1
+}
+
+// The base keeps a share of the samples however dark it seems: its grazing reflection is white.
+const float kMinBaseLuminance = 0.05;
+
+LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
+  LayersAtWo at;
+  at.base = LayerBase(1.0, 0.0, 0.0, 1.0);
+  if (kHasSpecular) {
+    const float mean = baseShares(scene, bsdf.base, woLocal.z).meanCoat;
+    at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90, mean);
+  }
+  float reachable = 1.0; // share of the light that comes down to the layer at hand
+  float coatShare = 0.0;
+  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
+    at.coatFrame = coatFrame(bsdf.coat);
+    at.woCoat = toLocal(at.coatFrame, woLocal);
+    at.coatCell = layerCell(abs(at.woCoat.z), bsdf.coat.roughness);
+    coatShare = bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, at.coatCell);
+    reachable -= coatShare;
+    if (at.woCoat.z < kMinCosine || bsdf.insideSolid) coatShare = 0.0;
+  }
+  float sheenShare = 0.0;
+  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
+    at.sheenCell = layerCell(woLocal.z, bsdf.sheen.roughness);
+    const float albedo = readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, at.sheenCell);
+    if (!bsdf.insideSolid) sheenShare = reachable * luminance(bsdf.sheen.color) * albedo;
+    reachable *= 1.0 - sheenAmount(bsdf.sheen) * albedo;
+  }
+  const float base = reachable * max(luminance(max(bsdf.base.baseColor, bsdf.base.f0)), kMinBaseLuminance);
+  const float below = sheenShare + base;
+  at.coatProbability = coatShare > 0.0 ? coatShare / (coatShare + below) : 0.0;
+  at.sheenProbability = sheenShare > 0.0 ? sheenShare / below : 0.0;
+  return at;
+}
+
+// Refraction crosses the layers once, on the outside; what they would throw back into the interior is lost.
+float passageOutside(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
+  float passed = 1.0;
+  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
+    LayerCell cell = at.coatCell;
+    if (bsdf.insideSolid) cell = layerCell(abs(dot(bsdf.coat.normalLocal, wiLocal)), bsdf.coat.roughness);
+    passed = 1.0 - bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, cell);
+  }
+  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
+    LayerCell cell = at.sheenCell;
+    if (bsdf.insideSolid) cell = layerCell(abs(wiLocal.z), bsdf.sheen.roughness);
+    passed *= 1.0 - sheenAmount(bsdf.sheen) * readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, cell);
+  }
+  return passed;
+}
+
+// What the layers leave of what the base scatters from wo to wi. Thin walls carry them on both sides, so that
+// transmission passes them as reflection does.
+LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
+  LayerPassage passage = LayerPassage(1.0, 1.0);
+  if (kHasTransmission && wiLocal.z < 0.0 && !bsdf.base.thinWalled) {
+    const float passed = passageOutside(scene, bsdf, at, wiLocal);
+    return LayerPassage(passed, passed);
+  }
+  if (bsdf.insideSolid) return passage;
+  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
+    const float muCoat = abs(dot(bsdf.coat.normalLocal, wiLocal));
+    const LayerCell cell = layerCell(muCoat, bsdf.coat.roughness);
+    FloatRef table = FloatRef(scene.view.clearcoatTable);
+    passage = layerPassage(table, at.coatCell, cell, bsdf.coat.amount, at.base);
+    // Over a sheen, too, the coat must not pass more than T(wo): the mean in layerPassage knows the base alone.
+    if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0)
+      passage.broad = passageOfEither(table, at.coatCell, cell, bsdf.coat.amount);
+  }
+  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
+    const LayerCell cell = layerCell(abs(wiLocal.z), bsdf.sheen.roughness);
+    const LayerPassage sheen =
+        layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell, sheenAmount(bsdf.sheen), at.base);
+    passage.narrow *= sheen.narrow;
+    passage.broad *= sheen.broad;
+  }
+  return passage;
+}
+
+// The lobes of the layers themselves, added to what comes from below.
+void addLayerLobes(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
+                   const vec3 wiLocal, inout BsdfValue value) {
+  if (bsdf.insideSolid || wiLocal.z < kMinCosine) return;
+  float underCoat = 1.0;
+  vec2 coat = vec2(0.0);
+  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
+    const vec3 wiCoat = toLocal(at.coatFrame, wiLocal);
+    coat = evaluateCoat(bsdf.coat, at.woCoat, wiCoat);
+    underCoat = passageOfEither(FloatRef(scene.view.clearcoatTable), at.coatCell,
+                                layerCell(abs(wiCoat.z), bsdf.coat.roughness), bsdf.coat.amount);
+  }
+  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
+    const LayerCell cell = layerCell(wiLocal.z, bsdf.sheen.roughness);
+    value.fCos += bsdf.sheen.color * (underCoat * evalSheen(FloatRef(scene.view.sheenTable), bsdf.sheen, at.sheenCell,
+                                                            cell, woLocal, wiLocal));
+    value.pdfSolidAngle += (1.0 - at.coatProbability) * at.sheenProbability * kInvTwoPi;
+  }
+  if (kHasClearcoat) {
+    value.fCos += vec3(bsdf.coat.amount * coat.x);
+    value.pdfSolidAngle += at.coatProbability * coat.y;
+  }
+}
+
+BsdfValue evaluateLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
+                          const vec3 wiLocal) {
+  const BaseValue base = evaluateBase(scene, bsdf.base, woLocal, wiLocal);
+  const LayerPassage passage = passageThrough(scene, bsdf, at, wiLocal);
+  BsdfValue value;
+  value.fCos = base.diffuse * passage.broad + base.facets * passage.narrow;
+  value.pdfSolidAngle = (1.0 - at.coatProbability) * (1.0 - at.sheenProbability) * base.pdfSolidAngle;
+  addLayerLobes(scene, bsdf, at, woLocal, wiLocal, value);
+  return value;
+}
+
 /// Returns f |cos wi| and the sampling density of the continuous lobes.
 BsdfValue evaluateBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
-  return evaluateBase(scene, bsdf.base, woLocal, wiLocal);
+  if (hasLayers(bsdf)) {
+    if (min(woLocal.z, abs(wiLocal.z)) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
+    return evaluateLayered(scene, bsdf, layersAt(scene, bsdf, woLocal), woLocal, wiLocal);
+  }
+  const BaseValue base = evaluateBase(scene, bsdf.base, woLocal, wiLocal);
+  return BsdfValue(base.facets + base.diffuse, base.pdfSolidAngle);
 }
 
 /// Returns f |cos wi| of the continuous lobes.
@@ -28,12 +179,54 @@ float pdfBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, 
   return evaluateBsdf(scene, bsdf, woLocal, wiLocal).pdfSolidAngle;
 }
 
+// The base's choice weighed anew: the layers dim it, and their lobes may have sampled it too.
+BsdfSample weighLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
+                        BsdfSample drawn) {
+  const BsdfValue value = evaluateLayered(scene, bsdf, at, woLocal, drawn.wiLocal);
+  drawn.pdfSolidAngle = value.pdfSolidAngle;
+  drawn.weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
+  drawn.valid = max(drawn.weight.x, max(drawn.weight.y, drawn.weight.z)) > 0.0;
+  return drawn;
+}
+
+// One of three lobes, coat, sheen or base, by the probabilities in `at`.
+BsdfSample sampleLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
+                         float uLobe, const vec2 u) {
+  BsdfSample drawn = absorbed();
+  if (uLobe < at.coatProbability) {
+    drawn.wiLocal = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u));
+    if (drawn.wiLocal.z < kMinCosine) return drawn;
+    if (!coatIsMirror(bsdf.coat)) return weighLayered(scene, bsdf, at, woLocal, drawn);
+    drawn.weight = vec3(bsdf.coat.amount * coatReflectance(at.woCoat.z) / at.coatProbability);
+    drawn.delta = true;
+    drawn.valid = true;
+    return drawn;
+  }
+  uLobe = choiceRemainder(uLobe, at.coatProbability);
+  if (uLobe < at.sheenProbability) {
+    drawn.wiLocal = sampleSheen(u);
+    if (drawn.wiLocal.z < kMinCosine) return drawn;
+    return weighLayered(scene, bsdf, at, woLocal, drawn);
+  }
+  drawn = sampleBase(scene, bsdf.base, woLocal, choiceRemainder(uLobe, at.sheenProbability), u);
+  if (drawn.delta) {
+    drawn.weight *= passageThrough(scene, bsdf, at, drawn.wiLocal).narrow /
+                    ((1.0 - at.coatProbability) * (1.0 - at.sheenProbability));
+    return drawn;
+  }
+  // A direction that the base cannot scatter to is no loss where a layer can.
+  return drawn.pdfSolidAngle > 0.0 ? weighLayered(scene, bsdf, at, woLocal, drawn) : drawn;
+}
+
 /// Samples a direction of scattering, weighed over all lobes.
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
 BsdfSample sampleBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const float uLobe,
                       const vec2 u) {
+  if (hasLayers(bsdf) && woLocal.z >= kMinCosine) {
+    return sampleLayered(scene, bsdf, layersAt(scene, bsdf, woLocal), woLocal, uLobe, u);
+  }
   return sampleBase(scene, bsdf.base, woLocal, uLobe, u);
 }
 

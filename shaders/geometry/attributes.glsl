@@ -50,7 +50,7 @@ vec3 interpolateNormal(const SceneRef scene, const Geometry geometry, const uint
 /// Tangent in object space, not normalized, w = +-1 of the first corner; zero where the geometry has none.
 vec4 interpolateTangent(const SceneRef scene, const Geometry geometry, const uint primitiveIndex,
                         const vec2 barycentrics) {
-  if (!kHasNormalMaps || geometry.firstTangent == kInvalidIndex) return vec4(0.0);
+  if (!(kHasNormalMaps || kHasAnisotropy) || geometry.firstTangent == kInvalidIndex) return vec4(0.0);
   Vec4Ref tangents = Vec4Ref(scene.view.tangents);
   const uvec3 corner = triangleCorners(scene, geometry, primitiveIndex) + geometry.firstTangent;
   const vec3 weights = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);

@@ -65,7 +65,7 @@ SurfaceHit surfaceAt(const SceneRef scene, const uint instance, const uint trian
     if (dot(surface.ns, surface.ng) < 0.0) surface.ns = -surface.ns;
   }
   surface.tangent = vec4(0.0, 0.0, 0.0, 1.0);
-  if (kHasNormalMaps) {
+  if (kHasNormalMaps || kHasAnisotropy) {
     const vec4 tangent = interpolateTangent(scene, geometry, face.primitiveIndex, barycentrics);
     const bool mirrored = (instances.items[instance].flags & kInstanceMirrored) != 0u;
     surface.tangent = vec4(transformVector(worldFromObject, tangent.xyz), mirrored ? -tangent.w : tangent.w);

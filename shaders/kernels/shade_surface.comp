@@ -177,7 +177,7 @@ void main() {
   vec3 kept;
   const uint channel = dispersedChannel(scene, surface, key, slot, kept);
   const float eta = kHasVolumes ? etaAt(scene, surface, crossing, channel) : etaInAir(scene, surface, channel);
-  const SurfaceMaterial material = materialAt(scene, surface, eta, channel);
+  SurfaceMaterial material = materialAt(scene, surface, eta, channel);
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {
     path.hit = 1u;
@@ -192,8 +192,11 @@ void main() {
   }
   if (kHasDispersion) path.beta *= kept;
   if (alive) {
-    const Frame frame = frameFromNormal(ns);
+    const Frame frame = shadingFrame(scene, surface, ns);
     const vec3 woLocal = toLocal(frame, wo);
+    if (kHasClearcoat && material.bsdf.coat.amount > 0.0) {
+      material.bsdf.coat.normalLocal = toLocal(frame, clearcoatNormal(scene, surface, wo));
+    }
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
       // Lights on the far side of glass are sampled too.

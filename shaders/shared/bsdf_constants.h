@@ -22,6 +22,26 @@ ISOPHOTE_CONST uint kGgxAlbedoMuCount = 64u;
 ISOPHOTE_CONST uint kGgxAlbedoRoughnessCount = 64u;
 ISOPHOTE_CONST uint kGgxAlbedoMeans = kGgxAlbedoMuCount * kGgxAlbedoRoughnessCount;
 
+// Normal reflectance of the clearcoat, index 1.5 (KHR_materials_clearcoat).
+ISOPHOTE_CONST float kClearcoatF0 = 0.04f;
+
+// Fibres do not stand up straighter than this (roughness 0.07): all that the sheen's lobe still does is a hairline at
+// the horizon, too thin for its table.
+ISOPHOTE_CONST float kMinSheenAlpha = 5e-3f;
+
+// Table of a layer over the base, see bsdf/layer.glsl: floats. Nodes of mu as in the GGX table, c; r stands for the
+// layer's roughness r / (kLayerRoughnessCount - 1), b for the base's b / (kLayerBaseCount - 1).
+ISOPHOTE_CONST uint kLayerMuCount = 64u;
+ISOPHOTE_CONST uint kLayerRoughnessCount = 32u;
+ISOPHOTE_CONST uint kLayerBaseCount = 16u;
+ISOPHOTE_CONST uint kLayerAlbedo = 0u;                                  // [r][c] what the layer reflects
+ISOPHOTE_CONST uint kLayerScale = kLayerRoughnessCount * kLayerMuCount; // [r][c] factor of the lobe at each direction
+ISOPHOTE_CONST uint kLayerMean = kLayerScale + kLayerRoughnessCount * kLayerMuCount; // [r] cosine-weighted mean albedo
+ISOPHOTE_CONST uint kLayerCovariance = kLayerMean + kLayerRoughnessCount; // [r][b][2] of the albedo with GGX's (A, B)
+ISOPHOTE_CONST uint kLayerNarrow =
+    kLayerCovariance + 2u * kLayerRoughnessCount * kLayerBaseCount; // [r][b][c] coupling with a microfacet base
+ISOPHOTE_CONST uint kLayerTableSize = kLayerNarrow + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount;
+
 // Tables of what one scattering by rough glass loses between its facets, see bsdf/glass_loss.glsl; one for each index,
 // behind each other. Each has two halves, for light that comes from the air and from the glass; each half
 // kGlassLossRoughnessCount rows of kGlassLossMuCount columns, spaced as those above, and then the means, one a row.

@@ -22,6 +22,7 @@ ISOPHOTE_CONST uint kMaterialDoubleSided = 1u;
 ISOPHOTE_CONST uint kMaterialUnlit = 2u;
 ISOPHOTE_CONST uint kMaterialVolume = 4u; // the boundary of a medium: thickness > 0, and something passes
 ISOPHOTE_CONST uint kMaterialClear = 8u;  // a boundary that does nothing but refract: invisible between equal indices
+ISOPHOTE_CONST uint kMaterialConductor = 16u;
 
 // Texture members (…Slot) index the TextureSlot array, kInvalidIndex: none. Members are read one by one: those of a
 // feature that the scene lacks cost memory only.
@@ -47,6 +48,8 @@ struct MaterialRecord {
   float iridescenceIor;
   float iridescenceThicknessMinimum; // nm
   float iridescenceThicknessMaximum;
+  vec3 conductorN; // complex index of refraction of the metal, where kMaterialConductor is set
+  vec3 conductorK;
   float transmission;
   float diffuseTransmission;
   vec3 diffuseTransmissionColor;

@@ -26,6 +26,8 @@ struct SceneView {
   Address punctualLights;    // PunctualLightRecord
   Address ggxAlbedo;         // vec2 table of bsdf/ggx_albedo.glsl
   Address glassLoss;         // vec2 tables of bsdf/glass_loss.glsl
+  Address clearcoatTable;    // float table of bsdf/layer.glsl
+  Address sheenTable;        // the same of the sheen
   EnvironmentRecord environment;
   uint lightCount;
   uint emissiveTriangleCount;

@@ -8,8 +8,8 @@
 
 BsdfResult probe(const BsdfCase c) {
   SceneRef scene = SceneRef(pc.extra);
-  SurfaceBsdf m;
-  m.base = metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
+  SurfaceBsdf m =
+      bareSurface(metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor));
   const bool thinWalled = c.thinWalled != 0u;
   if (c.transmission > 0.0) {
     setTransmission(m.base, c.transmission, relativeIor(c.ior, thinWalled || c.backFace == 0u), thinWalled);

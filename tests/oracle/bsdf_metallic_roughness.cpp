@@ -40,6 +40,13 @@ double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
   return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost(m, albedo);
 }
 
+glm::dvec3 metalReflectance(const MetallicRoughness& m, double cosine) {
+  if (m.conductorN.x == 0) return fresnelSchlick(m.baseColor, glm::dvec3(1), cosine);
+  return {fresnelConductor(cosine, m.conductorN.x, m.conductorK.x),
+          fresnelConductor(cosine, m.conductorN.y, m.conductorK.y),
+          fresnelConductor(cosine, m.conductorN.z, m.conductorK.z)};
+}
+
 double glassShare(const MetallicRoughness& m) { return m.transmission * (1 - m.metallic); }
 
 glm::dvec3 diffuse(const MetallicRoughness& m, double muO, double muI) {
@@ -51,8 +58,8 @@ glm::dvec3 diffuse(const MetallicRoughness& m, double muO, double muI) {
 }
 
 glm::dvec3 opaqueMultiple(const MetallicRoughness& m) {
-  return m.metallic * multipleReflectance(m, m.baseColor, glm::dvec3(1)) +
-         (1 - m.metallic) * (1 - m.transmission) * multipleReflectance(m, m.glassF0, glm::dvec3(m.dielectricF90));
+  return m.metallic * multipleReflectance(m, metalReflectance(m, 1), glm::dvec3(1)) +
+         (1 - m.metallic) * (1 - m.transmission) * multipleReflectance(m, m.glassF0, glm::dvec3(m.glassF90));
 }
 
 // Multiple scattering by glass: what light at cosine mu in front of, or behind, the surface loses; means; and the share
@@ -127,7 +134,7 @@ glm::dvec3 multipleScattering(const MetallicRoughness& m, double muO, double muI
 }
 
 glm::dvec3 reflectedAtFacet(const MetallicRoughness& m, double cosine) {
-  return fresnelSchlick(m.f0, m.f90, cosine) + glassShare(m) * glassReflectance(m, cosine);
+  return facetReflectance(m, cosine) + glassShare(m) * glassReflectance(m, cosine);
 }
 
 glm::dvec3 transmittedAtFacet(const MetallicRoughness& m, double cosine) {
@@ -151,7 +158,7 @@ struct Transmitted {
 };
 
 Transmitted transmittedByFacets(const MetallicRoughness& m, const glm::dvec3& wo, const glm::dvec3& wi) {
-  const glm::dvec2 alpha(m.alpha);
+  const glm::dvec2 alpha(m.width);
   if (m.thinWalled) {
     const glm::dvec3 above = mirroredDown(wi);
     const glm::dvec3 wm = glm::normalize(wo + above);
@@ -206,11 +213,13 @@ MetallicRoughness metallicRoughness(const glm::dvec3& baseColor, double metallic
   return {.baseColor = baseColor,
           .metallic = metallic,
           .alpha = roughness * roughness,
+          .width = glm::dvec2(roughness * roughness),
           .f0 = glm::mix(dielectricF0, baseColor, metallic),
           .f90 = glm::dvec3(std::lerp(specular, 1.0, metallic)),
           .dielectricF0 = std::max({dielectricF0.x, dielectricF0.y, dielectricF0.z}),
           .dielectricF90 = specular,
-          .glassF0 = dielectricF0};
+          .glassF0 = dielectricF0,
+          .glassF90 = specular};
 }
 
 MetallicRoughness withTransmission(MetallicRoughness m, double transmission, double ior, bool frontFace,
@@ -220,7 +229,7 @@ MetallicRoughness withTransmission(MetallicRoughness m, double transmission, dou
   m.innerIor = frontFace || thinWalled ? ior : 1;
   m.thinWalled = thinWalled;
   m.f0 = glm::mix((1 - transmission) * m.glassF0, m.baseColor, m.metallic);
-  m.f90 = glm::dvec3(std::lerp((1 - transmission) * m.dielectricF90, 1.0, m.metallic));
+  m.f90 = glm::dvec3(std::lerp((1 - transmission) * m.glassF90, 1.0, m.metallic));
   return m;
 }
 
@@ -228,7 +237,45 @@ glm::dvec3 glassReflectance(const MetallicRoughness& m, double cosine) {
   const double exact = fresnelDielectric(cosine, m.innerIor / m.outerIor);
   if (exact >= 1) return glm::dvec3(1); // total internal reflection, or grazing
   const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
-  return glm::mix(m.glassF0, glm::dvec3(m.dielectricF90), std::max(0.0, (exact - normal) / (1 - normal)));
+  const glm::dvec3 bare = glm::mix(m.glassF0, glm::dvec3(m.glassF90), std::max(0.0, (exact - normal) / (1 - normal)));
+  if (m.film.amount == 0) return bare;
+  const double sineOutside = std::sqrt(1 - cosine * cosine) * std::max(m.outerIor, 1.0); // Snell's law
+  const double outside = std::sqrt(std::max(0.0, 1 - sineOutside * sineOutside));
+  return glm::mix(bare, filmReflectance(m.film, outside, m.glassF0), m.film.amount);
+}
+
+MetallicRoughness withAnisotropy(MetallicRoughness m, double strength) {
+  const double wide = std::lerp(m.alpha, 1.0, strength * strength);
+  const double limit = double(gpu::kMirrorAlpha);
+  if (strength == 0 || wide < limit) return m;
+  m.width = {wide, std::max(m.alpha, limit)};
+  m.alpha = std::sqrt(m.width.x * m.width.y);
+  return m;
+}
+
+MetallicRoughness withConductor(MetallicRoughness m, const glm::dvec3& n, const glm::dvec3& k) {
+  m.conductorN = n;
+  m.conductorK = k;
+  m.f0 = facetReflectance(m, 1);
+  return m;
+}
+
+MetallicRoughness withFilm(MetallicRoughness m, const ThinFilm& film) {
+  m.film = film;
+  m.dielectricF0 = std::lerp(m.dielectricF0, std::max(m.dielectricF0, filmBound(film, m.glassF0)), film.amount);
+  m.dielectricF90 = std::lerp(m.dielectricF90, 1.0, film.amount);
+  m.f90 = glm::mix(m.f90, glm::dvec3(m.metallic + (1 - m.metallic) * (1 - m.transmission)), film.amount);
+  m.f0 = facetReflectance(m, 1);
+  return m;
+}
+
+glm::dvec3 facetReflectance(const MetallicRoughness& m, double cosine) {
+  if (m.film.amount == 0 && m.conductorN.x == 0) return fresnelSchlick(m.f0, m.f90, cosine);
+  const glm::dvec3 metal =
+      glm::mix(metalReflectance(m, cosine), filmReflectance(m.film, cosine, metalReflectance(m, 1)), m.film.amount);
+  const glm::dvec3 dielectric = glm::mix(fresnelSchlick(m.glassF0, glm::dvec3(m.glassF90), cosine),
+                                         filmReflectance(m.film, cosine, m.glassF0), m.film.amount);
+  return (1 - m.metallic) * (1 - m.transmission) * dielectric + m.metallic * metal;
 }
 
 bool transmitsDelta(const MetallicRoughness& m) {
@@ -246,11 +293,20 @@ glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const
   glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z) + multipleScattering(m, woLocal.z, wiLocal.z, false);
   if (!isMirror(m)) {
     const glm::dvec3 wm = glm::normalize(woLocal + wiLocal);
-    const glm::dvec2 alpha(m.alpha);
+    const glm::dvec2 alpha(m.width);
     f += reflectedAtFacet(m, glm::dot(woLocal, wm)) * ggxD(wm, alpha) * ggxG2(woLocal, wiLocal, alpha) /
          (4 * woLocal.z * wiLocal.z);
   }
   return f * wiLocal.z;
+}
+
+glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
+  if (woLocal.z <= 0 || wiLocal.z <= 0) return glm::dvec3(0);
+  return (diffuse(m, woLocal.z, wiLocal.z) + multipleScattering(m, woLocal.z, wiLocal.z, false)) * wiLocal.z;
+}
+
+double meanCoatTransmission(const MetallicRoughness& m) {
+  return std::max(1 - coatAlbedo(m, meanAlbedo(modelAlpha(m))), double(gpu::kMinCoatTransmission));
 }
 
 double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
@@ -263,7 +319,7 @@ double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm:
   double pdf = (1 - facets - behind) * wiLocal.z / pi;
   if (!isMirror(m)) {
     const glm::dvec3 wm = glm::normalize(woLocal + wiLocal);
-    pdf += facets * reflectionShare(m, glm::dot(woLocal, wm)) * pdfVisibleNormal(woLocal, wm, glm::dvec2(m.alpha)) /
+    pdf += facets * reflectionShare(m, glm::dot(woLocal, wm)) * pdfVisibleNormal(woLocal, wm, m.width) /
            (4 * glm::dot(woLocal, wm));
   }
   return pdf;
@@ -274,7 +330,7 @@ BsdfSample sampleBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, dou
   if (woLocal.z <= 0) return result;
   const auto [facets, behind] = lobeChoice(m, woLocal.z);
   if (uLobe < facets) {
-    const glm::dvec3 wm = isMirror(m) ? glm::dvec3(0, 0, 1) : sampleVisibleNormal(woLocal, glm::dvec2(m.alpha), u);
+    const glm::dvec3 wm = isMirror(m) ? glm::dvec3(0, 0, 1) : sampleVisibleNormal(woLocal, m.width, u);
     const double reflected = reflectionShare(m, glm::dot(woLocal, wm));
     if (uLobe >= facets * reflected) return sampleTransmission(m, woLocal, wm, facets);
     result.wiLocal = glm::normalize(2 * glm::dot(woLocal, wm) * wm - woLocal);

@@ -3,21 +3,28 @@
 
 #include <glm/glm.hpp>
 
+#include "oracle/bsdf_fresnel.hpp"
+
 namespace isophote::oracle {
 
 struct MetallicRoughness {
   glm::dvec3 baseColor{1};
   double metallic = 0;
-  double alpha = 1; ///< roughness squared; below gpu::kMirrorAlpha the specular lobe is a delta mirror
-  glm::dvec3 f0{0}; ///< of all facets but those of glass
+  double alpha = 1;    ///< roughness squared; below gpu::kMirrorAlpha the specular lobe is a delta mirror
+  glm::dvec2 width{1}; ///< alpha along x and y; then alpha is their geometric mean
+  glm::dvec3 f0{0};    ///< of all facets but those of glass
   glm::dvec3 f90{0};
   double dielectricF0 = 0; ///< of the coat over the diffuse lobe, its largest channel
   double dielectricF90 = 0;
-  glm::dvec3 glassF0{0};
+  glm::dvec3 glassF0{0};   ///< of dielectric facets at normal incidence
+  double glassF90 = 0;     ///< and at grazing
   double transmission = 0; ///< share of the dielectric that is glass
   double outerIor = 1;     ///< on wo's side
   double innerIor = 1;     ///< on the other side; of thin walls that of the wall
   bool thinWalled = true;
+  ThinFilm film;
+  glm::dvec3 conductorN{0}; ///< of the metal; 0: it reflects its base color
+  glm::dvec3 conductorK{0};
   bool multipleScattering = true;
 };
 
@@ -37,6 +44,13 @@ struct BsdfSample {
 [[nodiscard]] MetallicRoughness withTransmission(MetallicRoughness m, double transmission, double ior, bool frontFace,
                                                  bool thinWalled);
 
+[[nodiscard]] MetallicRoughness withAnisotropy(MetallicRoughness m, double strength);
+[[nodiscard]] MetallicRoughness withConductor(MetallicRoughness m, const glm::dvec3& n, const glm::dvec3& k);
+[[nodiscard]] MetallicRoughness withFilm(MetallicRoughness m, const ThinFilm& film);
+
+/// What facets other than glass reflect. @param cosine between their normal and wo
+[[nodiscard]] glm::dvec3 facetReflectance(const MetallicRoughness& m, double cosine);
+
 /// Reflectance of a facet of glass, per channel. @param cosine between its normal and wo
 [[nodiscard]] glm::dvec3 glassReflectance(const MetallicRoughness& m, double cosine);
 
@@ -45,6 +59,12 @@ struct BsdfSample {
 
 /// f |cos wi| of the continuous lobes for radiance, 0 unless wo lies above the surface; wi.z < 0 is transmission.
 [[nodiscard]] glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
+
+/// The part of it, on wo's side, of the lobes that follow the cosine: the diffuse one and multiple scattering.
+[[nodiscard]] glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
+
+/// Mean share of light that passes the dielectric coat over the diffuse lobe.
+[[nodiscard]] double meanCoatTransmission(const MetallicRoughness& m);
 
 /// Density of sampleBsdf's continuous lobes per steradian of wi, with their selection probabilities.
 [[nodiscard]] double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);

@@ -22,11 +22,18 @@ Scattering::Scattering(const SurfacePoint& point, glm::dvec3 wo)
   if (point.material.transmission > 0)
     model_ = withTransmission(model_, point.material.transmission, point.material.ior, point.frontFace,
                               point.material.thinWalled);
+  const SurfaceMaterial& material = point.material;
+  if (material.clearcoat == 0 && material.sheenColor == glm::dvec3(0)) return;
+  layered_.emplace(
+      model_,
+      ClearcoatLayer{material.clearcoat, material.clearcoatRoughness, glm::transpose(frame_) * point.coatNormal},
+      SheenLayer{material.sheenColor, material.sheenRoughness});
 }
 
 ScatterValue Scattering::evaluate(glm::dvec3 wi) const {
   if (!lit_ || !sidesAgree(wi)) return {};
   const glm::dvec3 wiLocal = glm::transpose(frame_) * wi;
+  if (layered_) return {layered_->eval(woLocal_, wiLocal), layered_->pdf(woLocal_, wiLocal)};
   if (lambert_ && wiLocal.z <= 0) return {};
   if (lambert_) return {model_.baseColor * (wiLocal.z / kPi), wiLocal.z / kPi};
   return {evalBsdf(model_, woLocal_, wiLocal), pdfBsdf(model_, woLocal_, wiLocal)};
@@ -37,7 +44,7 @@ ScatterSample Scattering::sample(RandomStream& random) const {
   ScatterSample result;
   const double uLobe = random.next();
   const glm::dvec2 u = random.next2();
-  if (lambert_) {
+  if (lambert_ && !layered_) {
     const double r = std::sqrt(u.x), phi = 2 * kPi * u.y;
     result.wi = frame_ * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x));
     const ScatterValue value = evaluate(result.wi);
@@ -45,7 +52,7 @@ ScatterSample Scattering::sample(RandomStream& random) const {
     if (value.pdf > 0) result.weight = model_.baseColor;
     return result;
   }
-  const BsdfSample sample = sampleBsdf(model_, woLocal_, uLobe, u);
+  const BsdfSample sample = layered_ ? layered_->sample(woLocal_, uLobe, u) : sampleBsdf(model_, woLocal_, uLobe, u);
   result.wi = frame_ * sample.wiLocal;
   if (!sample.valid || !sidesAgree(result.wi)) return {};
   result.weight = sample.weight;

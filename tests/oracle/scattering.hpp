@@ -1,8 +1,11 @@
 // How a surface point scatters: the oracle BSDF in the point's shading frame, with the horizon rules of the renderer.
 #pragma once
 
+#include <optional>
+
 #include <glm/glm.hpp>
 
+#include "oracle/bsdf_layers.hpp"
 #include "oracle/bsdf_metallic_roughness.hpp"
 #include "oracle/random_stream.hpp"
 #include "oracle/surface.hpp"
@@ -39,6 +42,7 @@ private:
   bool lit_;     ///< wo is above both horizons
   bool lambert_; ///< no specular lobe and no coat: albedo / pi, without asking the full model
   MetallicRoughness model_;
+  std::optional<LayeredSurface> layered_; ///< where anything lies over the base
 };
 
 } // namespace isophote::oracle

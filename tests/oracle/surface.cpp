@@ -63,6 +63,17 @@ SurfaceMaterial evaluateMaterial(const Attributes& at) {
   if (source.specularTexture.present()) result.specular *= at.texture(source.specularTexture, Encoding::Linear).w;
   if (source.specularColorTexture.present())
     result.specularColor *= glm::dvec3(at.texture(source.specularColorTexture, Encoding::Srgb));
+  result.clearcoat = source.clearcoat.factor;
+  if (source.clearcoat.texture.present()) result.clearcoat *= at.texture(source.clearcoat.texture, Encoding::Linear).x;
+  result.clearcoatRoughness = source.clearcoat.roughness;
+  if (source.clearcoat.roughnessTexture.present())
+    result.clearcoatRoughness *= at.texture(source.clearcoat.roughnessTexture, Encoding::Linear).y;
+  result.sheenColor = glm::dvec3(source.sheen.color);
+  if (source.sheen.colorTexture.present())
+    result.sheenColor *= glm::dvec3(at.texture(source.sheen.colorTexture, Encoding::Srgb));
+  result.sheenRoughness = source.sheen.roughness;
+  if (source.sheen.roughnessTexture.present())
+    result.sheenRoughness *= at.texture(source.sheen.roughnessTexture, Encoding::Linear).w;
   result.transmission = source.ior >= 1 ? source.transmission.factor : 0; // index 0 is infinite: nothing gets in
   if (source.transmission.texture.present())
     result.transmission *= at.texture(source.transmission.texture, Encoding::Linear).x;
@@ -71,22 +82,22 @@ SurfaceMaterial evaluateMaterial(const Attributes& at) {
   return result;
 }
 
-/// Unit shading normal on the front side: interpolated normal, bent by the normal texture (glTF 2.0, 3.9.3).
+/// Unit shading normal on the front side: interpolated normal, bent by a normal texture (glTF 2.0, 3.9.3).
 /// Interpolated normals on the far side of the triangle are turned over.
-glm::dvec3 frontShadingNormal(const Attributes& at, const Triangle& triangle) {
+glm::dvec3 frontShadingNormal(const Attributes& at, const Triangle& triangle, const TextureRef& normalTexture) {
   if (at.primitive.normals.empty()) return triangle.ng;
   const glm::dmat3 worldFromObject(at.scene.instances[triangle.instance].worldFromObject);
   glm::dvec3 normal =
       glm::normalize(glm::transpose(glm::inverse(worldFromObject)) * at.interpolate<3>(at.primitive.normals));
   if (glm::dot(normal, triangle.ng) < 0) normal = -normal;
-  if (!at.material.normalTexture.present() || at.primitive.tangents.empty()) return normal;
+  if (!normalTexture.present() || at.primitive.tangents.empty()) return normal;
   const glm::dvec4 source = at.interpolate<4>(at.primitive.tangents);
   const glm::dvec3 along = worldFromObject * glm::dvec3(source);
   const glm::dvec3 tangent = glm::normalize(along - normal * glm::dot(normal, along));
   const double handedness = (source.w < 0 ? -1.0 : 1.0) * (glm::determinant(worldFromObject) < 0 ? -1.0 : 1.0);
   const glm::dvec3 bitangent = glm::cross(normal, tangent) * handedness;
-  const glm::dvec3 texel = 2.0 * glm::dvec3(at.texture(at.material.normalTexture, Encoding::Linear)) - 1.0;
-  const double scale = at.material.normalTexture.scale;
+  const glm::dvec3 texel = 2.0 * glm::dvec3(at.texture(normalTexture, Encoding::Linear)) - 1.0;
+  const double scale = normalTexture.scale;
   return glm::normalize(scale * texel.x * tangent + scale * texel.y * bitangent + texel.z * normal);
 }
 
@@ -115,7 +126,9 @@ SurfacePoint evaluateSurface(const Scene& scene, const Triangle& triangle, const
     point.emission = glm::dvec3(at.baseColor());
     return point;
   }
-  point.ns = turnedToViewer(side * frontShadingNormal(at, triangle), point.ng, wo);
+  point.ns = turnedToViewer(side * frontShadingNormal(at, triangle, at.material.normalTexture), point.ng, wo);
+  point.coatNormal =
+      turnedToViewer(side * frontShadingNormal(at, triangle, at.material.clearcoat.normalTexture), point.ng, wo);
   point.emission = evaluateEmission(scene, triangle, hit, wo);
   point.material = evaluateMaterial(at);
   return point;

@@ -17,6 +17,10 @@ struct SurfaceMaterial {
   double ior = 1.5;
   double specular = 1;
   glm::dvec3 specularColor{1};
+  double clearcoat = 0;
+  double clearcoatRoughness = 0;
+  glm::dvec3 sheenColor{0};
+  double sheenRoughness = 0;
   double transmission = 0;
   bool thinWalled = true;
   double dispersion = 0; ///< 20 / Abbe number
@@ -24,9 +28,10 @@ struct SurfaceMaterial {
 
 struct SurfacePoint {
   glm::dvec3 position{0};
-  glm::dvec3 ng{0};       ///< unit geometric normal, on wo's side
-  glm::dvec3 ns{0};       ///< unit shading normal, turned over together with ng
-  glm::dvec3 emission{0}; ///< radiance towards wo
+  glm::dvec3 ng{0};         ///< unit geometric normal, on wo's side
+  glm::dvec3 ns{0};         ///< unit shading normal, turned over together with ng
+  glm::dvec3 coatNormal{0}; ///< the clearcoat's own shading normal
+  glm::dvec3 emission{0};   ///< radiance towards wo
   bool frontFace = true;
   bool unlit = false; ///< KHR_materials_unlit: `emission` is the base color and nothing scatters
   SurfaceMaterial material;

@@ -73,12 +73,26 @@ TEST(Features, EachThingInTheSceneAddsItsFeatureAlone) {
       {"environment", [](Scene& s) { s.environment.emplace(); }},
       {"specular", [](Scene& s) { s.materials[0].specular = 1; }},
       {"specular", [](Scene& s) { s.materials[0].metallic = 1; }},
+      {"clearcoat", [](Scene& s) { s.materials[0].clearcoat.factor = 0.1f; }},
+      {"sheen",
+       [](Scene& s) {
+         s.materials[0].sheen.color = {0, 0.1f, 0};
+       }},
       {"unlit", [](Scene& s) { s.materials[0].unlit = true; }},
   };
   // Glass is made of facets.
   Scene glass = plainScene();
   glass.materials[0].transmission.factor = 0.5f;
   EXPECT_EQ(names(glass), (Names{"specular", "transmission"}));
+  // So is what only facets have.
+  Scene film = plainScene();
+  film.materials[0].iridescence.factor = 0.5f;
+  EXPECT_EQ(names(film), (Names{"specular", "iridescence"}));
+  Scene brushed = plainScene();
+  brushed.materials[0].metallic = 1;
+  brushed.materials[0].anisotropy.strength = 0.5f;
+  brushed.materials[0].conductor.given = true;
+  EXPECT_EQ(names(brushed), (Names{"specular", "anisotropy", "conductor"}));
   for (const auto& [name, change] : cases) {
     Scene scene = plainScene();
     change(scene);

@@ -100,6 +100,18 @@ TEST(GltfMaterials, EveryTextureGoesToItsPlace) {
   EXPECT_EQ(m.baseColorTexture.scale, 1.0f);
 }
 
+TEST(GltfMaterials, ConductorIsReadFromExtras) {
+  const Scene gold =
+      loadMaterial({{"extras", {{"conductor", {{"n", {0.25, 0.5, 1.5}}, {"k", {4, 2, 0}}}}, {"other", "thing"}}}});
+  EXPECT_TRUE(gold.materials.at(0).conductor.given);
+  EXPECT_EQ(gold.materials.at(0).conductor.n, glm::vec3(0.25f, 0.5f, 1.5f));
+  EXPECT_EQ(gold.materials.at(0).conductor.k, glm::vec3(4, 2, 0));
+  for (const char* extras : {R"("gold")", R"({"conductor": "gold"})", R"({"conductor": {"n": [1, 2, 3]}})"}) {
+    const Scene other = loadMaterial({{"extras", nlohmann::json::parse(extras)}});
+    EXPECT_FALSE(other.materials.at(0).conductor.given) << extras;
+  }
+}
+
 TEST(GltfMaterials, ExtensionFactorsAreRead) {
   const Scene scene = loadMaterial(
       {{"extensions",

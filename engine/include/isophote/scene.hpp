@@ -81,6 +81,13 @@ struct Iridescence {
   TextureRef thicknessTexture;  ///< G
 };
 
+/// The complex index of refraction n + ik of a metal, for red, green and blue (extras of a material, docs/bsdf.md).
+struct Conductor {
+  bool given = false; ///< false: the metal reflects its base color
+  glm::vec3 n{1};
+  glm::vec3 k{0};
+};
+
 /// KHR_materials_transmission: the share of the dielectric base that is glass instead of diffuse.
 struct Transmission {
   float factor = 0;
@@ -127,6 +134,7 @@ struct Material {
   Sheen sheen;
   Anisotropy anisotropy;
   Iridescence iridescence;
+  Conductor conductor;
   Transmission transmission;
   DiffuseTransmission diffuseTransmission;
   Volume volume;
@@ -149,11 +157,15 @@ struct Material {
 [[nodiscard]] std::vector<TextureRef*> textureRefs(Material& material);
 [[nodiscard]] std::vector<const TextureRef*> textureRefs(const Material& material);
 
+/// The texture coordinates whose u direction is the tangent that a material is shaded with, where it needs one: for a
+/// normal map of the base or the clearcoat, or for anisotropy.
+[[nodiscard]] std::optional<uint32_t> tangentUvSet(const Material& material);
+
 /// One triangle list. Attribute arrays are empty or as long as `positions`; all values are finite.
 struct Primitive {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  ///< unit; empty: flat shading with the geometric normal
-  std::vector<glm::vec4> tangents; ///< unit xyz, w = +-1; present whenever the material has a normal texture
+  std::vector<glm::vec4> tangents; ///< unit xyz, w = +-1; present whenever tangentUvSet(material) says so
   std::array<std::vector<glm::vec2>, kMaxUvSets> uvs;
   std::vector<glm::vec4> colors; ///< linear RGBA
   std::vector<uint32_t> indices; ///< 3 per triangle, each < positions.size(); degenerate triangles removed

@@ -41,7 +41,9 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
   if (std::any_of(refs.begin(), refs.end(), [](const TextureRef* ref) { return ref->present(); })) {
     features.add(Feature::kHasTextures);
   }
-  if (material.normalTexture.present()) features.add(Feature::kHasNormalMaps);
+  if (material.normalTexture.present() || material.clearcoat.normalTexture.present()) {
+    features.add(Feature::kHasNormalMaps);
+  }
   if (material.alphaMode != AlphaMode::Opaque) features.add(Feature::kHasAlpha);
   if (material.emissive != glm::vec3(0)) features.add(Feature::kHasEmissiveTriangles);
   if (material.unlit) {
@@ -53,14 +55,20 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
     const MediumCoefficients medium = mediumCoefficients(material.volume);
     if (medium.extinction * medium.albedo != glm::vec3(0)) features.add(Feature::kHasScatteringMedia);
   }
+  if (material.clearcoat.factor > 0) features.add(Feature::kHasClearcoat);
+  if (material.sheen.color != glm::vec3(0)) features.add(Feature::kHasSheen);
   // Factors multiply textures of at most 1, so a factor of 0 rules the lobe out. A dielectric with ior 1 keeps its
   // grazing reflection (f90 = specular).
   const bool transmits = material.transmission.factor > 0 && material.ior >= 1 &&
                          (material.metallic < 1 || material.metallicRoughnessTexture.present());
   if (transmits) features.add(Feature::kHasTransmission);
   if (transmits && isDispersive(material)) features.add(Feature::kHasDispersion);
-  if (material.metallic == 0 && material.specular == 0 && !transmits) return;
+  const bool hasFilm = material.iridescence.factor > 0;
+  if (material.metallic == 0 && material.specular == 0 && !transmits && !hasFilm) return;
   features.add(Feature::kHasSpecular);
+  if (material.anisotropy.strength > 0) features.add(Feature::kHasAnisotropy);
+  if (hasFilm) features.add(Feature::kHasIridescence);
+  if (material.conductor.given && material.metallic > 0) features.add(Feature::kHasConductor);
   if (canBeMirror(scene, material)) features.add(Feature::kHasMirror);
 }
 

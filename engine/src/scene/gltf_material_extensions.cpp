@@ -86,6 +86,23 @@ void readVolumeScatter(MaterialProperties& properties, const Json& json, Volume&
   volume.scatterAnisotropy = properties.factor(json, "scatterAnisotropy", 0, -kLargestAnisotropy, kLargestAnisotropy);
 }
 
+bool isColor(const Json* value) {
+  return value && value->is_array() && value->size() == 3 &&
+         std::all_of(value->begin(), value->end(), [](const Json& channel) { return channel.is_number(); });
+}
+
+/// {"conductor": {"n": [r, g, b], "k": [r, g, b]}}: not an extension of Khronos, so it stands in the extras, where
+/// anything else may stand too: what has another shape is somebody else's.
+void readConductor(MaterialProperties& properties, const Json& extras, Conductor& conductor) {
+  const Json* found = extras.is_object() ? member(extras, "conductor") : nullptr;
+  if (!found || !found->is_object() || !isColor(member(*found, "n")) || !isColor(member(*found, "k"))) return;
+  constexpr float kLargestIndex = 1000; // beyond, the reflectance is 1 within 0.4%
+  constexpr float kSmallestIndex = 1e-3f;
+  conductor.given = true;
+  conductor.n = glm::max(properties.color(*found, "n", glm::vec3(1), kLargestIndex), glm::vec3(kSmallestIndex));
+  conductor.k = properties.color(*found, "k", glm::vec3(0), kLargestIndex);
+}
+
 } // namespace
 
 void readMaterialExtensions(MaterialProperties& properties, const Json& json, Material& material) {
@@ -104,6 +121,7 @@ void readMaterialExtensions(MaterialProperties& properties, const Json& json, Ma
   read("KHR_materials_volume", readVolume, material.volume);
   read("KHR_materials_volume_scatter", readVolumeScatter, material.volume);
   readPriority(json, material.volume);
+  if (const Json* extras = member(json, "extras")) readConductor(properties, *extras, material.conductor);
   if (const Json* dispersion = extension(json, "KHR_materials_dispersion")) {
     material.dispersion = properties.factor(*dispersion, "dispersion", 0, 0, FLT_MAX);
   }

@@ -138,10 +138,15 @@ void Meshes::assignMaterial(std::optional<uint32_t> material, const std::string&
     primitive.material = materials_.useWithoutNormalTexture(material, scene);
   }
   fillMissingUvs(pointer, scene.materials[primitive.material], primitive);
-  if (!scene.materials[primitive.material].normalTexture.present()) {
-    primitive.tangents.clear(); // nothing else reads them
+  const std::optional<uint32_t> uvSet = tangentUvSet(scene.materials[primitive.material]);
+  if (!uvSet) {
+    primitive.tangents.clear(); // nothing reads them
   } else if (primitive.tangents.empty()) {
-    generateTangents(primitive, normalTexture.uvSet);
+    if (primitive.uvs[*uvSet].empty()) { // anisotropy without a texture needs none for anything else
+      primitive.uvs[*uvSet].assign(primitive.positions.size(), glm::vec2(0));
+      document_.warnings.add("anisotropy without tangents or texture coordinates has no direction", pointer);
+    }
+    generateTangents(primitive, *uvSet);
   }
 }
 

@@ -28,6 +28,13 @@ std::vector<const TextureRef*> textureRefs(const Material& material) {
   return {refs.begin(), refs.end()};
 }
 
+std::optional<uint32_t> tangentUvSet(const Material& material) {
+  if (material.normalTexture.present()) return material.normalTexture.uvSet;
+  if (material.clearcoat.normalTexture.present()) return material.clearcoat.normalTexture.uvSet;
+  if (material.anisotropy.strength > 0) return material.anisotropy.texture.uvSet;
+  return std::nullopt;
+}
+
 bool isDispersive(const Material& material) {
   return material.dispersion > 0 && material.volume.thickness > 0 && material.ior > 1;
 }

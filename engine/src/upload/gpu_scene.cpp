@@ -57,6 +57,8 @@ std::vector<ArrayUpload> arrayUploads(const PackedScene& packed, gpu::SceneView&
       arrayUpload("scene.environmentMarginal", packed.environmentMarginal, view.environment.marginal),
       arrayUpload("scene.environmentConditional", packed.environmentConditional, view.environment.conditional),
       arrayUpload("scene.ggxAlbedo", packed.ggxAlbedo, view.ggxAlbedo),
+      arrayUpload("scene.clearcoatTable", packed.clearcoatTable, view.clearcoatTable),
+      arrayUpload("scene.sheenTable", packed.sheenTable, view.sheenTable),
       arrayUpload("scene.glassLoss", packed.glassLoss, view.glassLoss),
   };
   std::erase_if(all, [](const ArrayUpload& upload) { return upload.bytes.empty(); });

@@ -67,7 +67,8 @@ private:
     const uint32_t uvSets = materials_.uvSets[primitive.material];
     gpu::Geometry geometry{};
     geometry.firstNormal = append(packed_.normals, primitive.normals, true, "normals");
-    geometry.firstTangent = append(packed_.tangents, primitive.tangents, material.normalTexture.present(), "tangents");
+    geometry.firstTangent =
+        append(packed_.tangents, primitive.tangents, tangentUvSet(material).has_value(), "tangents");
     geometry.firstColor = append(packed_.colors, primitive.colors, true, "vertex colors");
     bool any = !primitive.normals.empty() || geometry.firstTangent != gpu::kInvalidIndex || !primitive.colors.empty();
     for (uint32_t set = 0; set < kMaxUvSets; ++set) {

@@ -38,7 +38,8 @@ private:
     record.dispersion = material.dispersion;
     record.alphaCutoff = material.alphaCutoff;
     record.alphaMode = static_cast<uint32_t>(material.alphaMode);
-    record.flags = (material.doubleSided ? gpu::kMaterialDoubleSided : 0) | (material.unlit ? gpu::kMaterialUnlit : 0);
+    record.flags = (material.doubleSided ? gpu::kMaterialDoubleSided : 0) | (material.unlit ? gpu::kMaterialUnlit : 0) |
+                   (material.conductor.given ? gpu::kMaterialConductor : 0);
     record.baseColorSlot = slot(material.baseColorTexture, true);
     record.metallicRoughnessSlot = slot(material.metallicRoughnessTexture, false);
     record.normalSlot = slot(material.normalTexture, false);
@@ -69,6 +70,8 @@ private:
     record.iridescenceIor = iridescence.ior;
     record.iridescenceThicknessMinimum = iridescence.thicknessMinimum;
     record.iridescenceThicknessMaximum = iridescence.thicknessMaximum;
+    record.conductorN = material.conductor.n;
+    record.conductorK = material.conductor.k;
     record.iridescenceSlot = slot(iridescence.texture, false);
     record.iridescenceThicknessSlot = slot(iridescence.thicknessTexture, false);
   }

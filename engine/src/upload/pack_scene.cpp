@@ -1,6 +1,7 @@
 #include "upload/pack_scene.hpp"
 
 #include "upload/ggx_albedo.hpp"
+#include "upload/layer_tables.hpp"
 #include "upload/pack_geometry.hpp"
 #include "upload/pack_lights.hpp"
 #include "upload/pack_materials.hpp"
@@ -47,6 +48,8 @@ PackedScene packScene(const Scene& scene) {
   const PackedGeometry geometry = packGeometry(scene, meshUsed, materials, packed);
   packLights(scene, geometry, packed);
   if (packed.features.has(Feature::kHasSpecular)) packed.ggxAlbedo = ggxAlbedoTable();
+  if (packed.features.has(Feature::kHasClearcoat)) packed.clearcoatTable = clearcoatTable();
+  if (packed.features.has(Feature::kHasSheen)) packed.sheenTable = sheenTable();
   removeUnfound(packed);
   return packed;
 }

@@ -61,6 +61,8 @@ struct PackedScene {
   float environmentCosRotation = 1;
   float environmentSinRotation = 0;
   std::vector<glm::vec2> ggxAlbedo;
+  std::vector<float> clearcoatTable;
+  std::vector<float> sheenTable;
   std::vector<glm::vec2> glassLoss; ///< a table for each index of rough glass
   glm::dvec3 worldOrigin{0};        ///< subtracted from every world position before rounding to float
   glm::dvec3 worldCenter{0};        ///< of the bounds, absolute
