@@ -38,8 +38,8 @@ def ground():
 
 
 def lamp(rng, center):
-    """A triangle of a few centimetres whose front looks down, within 60 degrees: cameras above see its dark back."""
-    tilt, turn, size = rng.uniform(0, math.pi / 3), rng.uniform(0, 2 * math.pi), rng.uniform(0.01, 0.04)
+    """A triangle of a few centimetres whose front looks down: a camera above sees its dark back."""
+    tilt, turn, size = rng.uniform(0, 0.02), rng.uniform(0, 2 * math.pi), rng.uniform(0.01, 0.04)
     down = (math.sin(tilt) * math.cos(turn), -math.cos(tilt), math.sin(tilt) * math.sin(turn))
     right = normalize(cross(down, (1.0, 0.0, 0.0)))
     up = cross(down, right)
@@ -53,7 +53,7 @@ def lamps(rng, count, clumps):
         x, z, spread = rng.choice(clumps)
         x = min(max(rng.gauss(x, spread), -0.49 * SIDE), 0.49 * SIDE)
         z = min(max(rng.gauss(z, spread), -0.49 * SIDE), 0.49 * SIDE)
-        center = (x, height(x, z) + 0.1 + rng.expovariate(1 / 0.6), z)
+        center = (x, height(x, z) + min(0.1 + rng.expovariate(1 / 0.6), 4), z)
         positions += lamp(rng, center)
     return Shape(positions, list(range(3 * count)))
 
@@ -73,12 +73,16 @@ def scene(triangles):
         gltf.node(gltf.mesh(f"pillar {i}", gltf.shape(Shape(positions, indices)), pillar))
     clumps = [(rng.uniform(-45, 45), rng.uniform(-45, 45), rng.uniform(0.5, 12)) for _ in range(120)]
     groups = 4 * len(COLORS)
+    primitives = []  # of one mesh, so that one BVH holds all lamps
     for i in range(groups):
         strength = 40.0 * 10.0 ** rng.uniform(-1.5, 1.0)
         radiance = tuple(strength * c for c in COLORS[i % len(COLORS)])
         count = triangles * (i + 1) // groups - triangles * i // groups
         shape = gltf.shape(lamps(rng, count, clumps))
-        gltf.node(gltf.mesh(f"lamps {i}", shape, gltf.emitter(f"lamp {i}", radiance)))
+        primitives.append({**shape, "material": gltf.emitter(f"lamp {i}", radiance)})
+    mesh = gltf.mesh("lamps", {}, 0)
+    gltf.json["meshes"][mesh]["primitives"] = primitives
+    gltf.node(mesh, name="lamps")
     gltf.camera("view", (0.0, 9.0, 40.0), (0.0, 0.0, 0.0), math.radians(50.0), 16 / 9)
     return gltf
 
