@@ -21,6 +21,10 @@ public:
   /// @throws SceneError at /images/N where the image is broken; LimitError where it is too large
   [[nodiscard]] int32_t use(uint32_t index, Scene& scene);
 
+  /// Decodes glTF image `index` for a reader that keeps the pixels itself.
+  /// @throws as `use`
+  [[nodiscard]] ImageData decode(uint32_t index);
+
 private:
   [[nodiscard]] std::optional<uint32_t> source(uint32_t index) const;
   [[nodiscard]] uint32_t useImage(uint32_t index, Scene& scene);
