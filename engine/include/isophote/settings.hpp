@@ -23,7 +23,7 @@ struct EstimatorSettings {
   PixelFilter filter = PixelFilter::BlackmanHarris;
   LightSampling lightSampling = LightSampling::Mis;
   LightSelection lightSelection = LightSelection::Bvh; ///< Bvh: by power where the scene has few lights
-  TriangleLightSampling triangleLightSampling = TriangleLightSampling::SolidAngle;
+  TriangleLightSampling triangleLightSampling = TriangleLightSampling::Area;
   MisHeuristic misHeuristic = MisHeuristic::Power;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;

@@ -21,6 +21,9 @@ public:
   /// @throws SceneError at /images/N where the image is broken; LimitError where it is too large
   [[nodiscard]] int32_t use(uint32_t index, Scene& scene);
 
+  /// The same for a texture with glossiness in its alpha, which becomes roughness. Not shared between materials.
+  [[nodiscard]] int32_t useGlossiness(uint32_t index, float glossinessFactor, Scene& scene);
+
   /// Decodes glTF image `index` for a reader that keeps the pixels itself.
   /// @throws as `use`
   [[nodiscard]] ImageData decode(uint32_t index);
