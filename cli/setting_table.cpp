@@ -80,8 +80,8 @@ std::vector<SettingEntry> makeTable() {
              estimator, &E::lightSelection,
              {{"bvh", LightSelection::Bvh}, {"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}),
       choice(
-          {"triangle-light-sampling", "solid-angle, area", "solid-angle", "solid-angle",
-           "how points on emissive triangles are sampled: alike as seen from the receiver, or alike on the triangle"},
+          {"triangle-light-sampling", "area, solid-angle", "area", "area",
+           "how points on emissive triangles are sampled: alike on the triangle, or alike as seen from the receiver"},
           estimator, &E::triangleLightSampling,
           {{"solid-angle", TriangleLightSampling::SolidAngle}, {"area", TriangleLightSampling::Area}}),
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
