@@ -136,9 +136,9 @@ TEST(GltfImageLight, RotationTurnsTheMapFromItsSpaceToTheWorlds) {
 }
 
 TEST(GltfImageLight, ColorsAreSrgbOverAlpha) {
-  auto faces = sixColors(2);
-  faces[0] = plain(2, pixel(255, 188, 0, 51)); // a fifth; 188 is 0.5029 linear
-  const Environment map = *CubeAsset(faces, 2).load().environment;
+  auto faces = sixColors(8); // with fewer, the map's texel at +x reaches into other faces
+  faces[0] = plain(8, pixel(255, 188, 0, 51));
+  const Environment map = *CubeAsset(faces, 8).load().environment;
   const glm::vec3 color = from(map, {1, 0, 0});
   EXPECT_NEAR(color.r, 5, 1e-5);
   EXPECT_NEAR(color.g, 5 * std::pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-5);
