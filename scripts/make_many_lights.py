@@ -38,8 +38,8 @@ def ground():
 
 
 def lamp(rng, center):
-    """A triangle of a few centimetres whose front looks down: a camera above sees its dark back."""
-    tilt, turn, size = rng.uniform(0, 0.02), rng.uniform(0, 2 * math.pi), rng.uniform(0.01, 0.04)
+    """A triangle of a few millimetres whose front looks down: a camera above sees its dark back."""
+    tilt, turn, size = rng.uniform(0, 0.02), rng.uniform(0, 2 * math.pi), rng.uniform(0.002, 0.008)
     down = (math.sin(tilt) * math.cos(turn), -math.cos(tilt), math.sin(tilt) * math.sin(turn))
     right = normalize(cross(down, (1.0, 0.0, 0.0)))
     up = cross(down, right)
@@ -75,7 +75,7 @@ def scene(triangles):
     groups = 4 * len(COLORS)
     primitives = []  # of one mesh, so that one BVH holds all lamps
     for i in range(groups):
-        strength = 40.0 * 10.0 ** rng.uniform(-1.5, 1.0)
+        strength = 1000.0 * 10.0 ** rng.uniform(-1.5, 1.0)
         radiance = tuple(strength * c for c in COLORS[i % len(COLORS)])
         count = triangles * (i + 1) // groups - triangles * i // groups
         shape = gltf.shape(lamps(rng, count, clumps))
