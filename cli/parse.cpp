@@ -1,5 +1,6 @@
 #include "parse.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -82,6 +83,16 @@ glm::vec3 parseColor(const std::string& text) {
   glm::vec3 color;
   for (int c = 0; c < 3; ++c) color[c] = static_cast<float>(parseNumber(parts[static_cast<size_t>(c)], 0, 1e30));
   return color;
+}
+
+SkyOptions parseSky(const std::string& text) {
+  const auto count = 1 + static_cast<size_t>(std::count(text.begin(), text.end(), ','));
+  const auto parts = split(text, ',', std::min<size_t>(count, 3), "ELEVATION[,AZIMUTH[,TURBIDITY]]");
+  SkyOptions sky;
+  sky.elevationDegrees = parseNumber(parts[0], 0, 90);
+  if (parts.size() > 1) sky.azimuthDegrees = parseNumber(parts[1], -360, 360);
+  if (parts.size() > 2) sky.turbidity = parseNumber(parts[2], 2, 10);
+  return sky;
 }
 
 CLI::Option* addValue(CLI::App& command, const std::string& names, const std::string& type,

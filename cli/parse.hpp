@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "isophote/settings.hpp"
+#include "isophote/sky.hpp"
 
 namespace isophote::cli {
 
@@ -24,6 +25,9 @@ namespace isophote::cli {
 [[nodiscard]] PixelRect parseCrop(const std::string& text);
 /// `R,G,B`, each finite and not negative.
 [[nodiscard]] glm::vec3 parseColor(const std::string& text);
+
+/// `ELEVATION[,AZIMUTH[,TURBIDITY]]`, degrees.
+[[nodiscard]] SkyOptions parseSky(const std::string& text);
 
 /// Adds a flag with one value. What `set` throws is reported with the flag's name.
 CLI::Option* addValue(CLI::App& command, const std::string& names, const std::string& type,

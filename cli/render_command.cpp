@@ -23,6 +23,7 @@ constexpr const char* kExamples = R"(Examples:
   isophote render scene.glb -o image.exr -o image.png
   isophote render scene.glb -o image.exr --target-error 2% --time 600     whichever comes first; exit code 8 if it is the time
   isophote render model.glb -o image.png --env sky.hdr --env-rotation 90 --exposure -1 --tonemap agx
+  isophote render model.glb -o image.png --sky 40,120 --exposure -13      a clear day
   isophote render model.glb -o image.png --env-color 1,1,1                for an asset without lights
   isophote render scene.glb -o part.exr --sample-range 64:128             the second 64 samples, for another machine
   isophote render scene.glb -o direct.exr --max-depth 1 --stats stats.json

@@ -19,12 +19,21 @@ constexpr uint32_t kDefaultWidth = 1280;
 constexpr double kDefaultAspectRatio = 16.0 / 9;
 constexpr double kLargestSide = 65535;
 
+// The sun is one of the scene's lights; a factor on the environment is one on both.
+void setSky(Scene& scene, const EnvironmentOptions& options) {
+  Sky sky = makeSky(*options.sky);
+  sky.sun.intensity *= static_cast<float>(options.intensity.value_or(1));
+  scene.environment = std::move(sky.environment);
+  scene.lights.push_back(std::move(sky.sun));
+}
+
 void setEnvironment(Scene& scene, const EnvironmentOptions& options) {
   if (!options.file.empty()) scene.environment = loadEnvironment(options.file, scene.warnings);
   if (options.color) scene.environment = Environment{.width = 1, .height = 1, .pixels = {*options.color}};
+  if (options.sky) setSky(scene, options);
   if (!options.intensity && !options.rotationDegrees) return;
   if (!scene.environment)
-    throw UsageError("--env-intensity and --env-rotation need an environment: --env or --env-color");
+    throw UsageError("--env-intensity and --env-rotation need an environment: --env, --env-color or --sky");
   if (options.intensity) scene.environment->intensity = static_cast<float>(*options.intensity);
   if (options.rotationDegrees) scene.environment->rotation = *options.rotationDegrees * std::numbers::pi / 180;
 }
@@ -69,11 +78,21 @@ void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options) {
   CLI::Option* file = command.add_option("--env", options.file, "Equirectangular environment map, .hdr or .exr")
                           ->type_name("FILE")
                           ->group(kGroup);
-  addValue(
-      command, "--env-color", "R,G,B", [&options](const std::string& text) { options.color = parseColor(text); },
-      "Constant environment radiance, linear Rec.709")
-      ->excludes(file)
-      ->group(kGroup);
+  CLI::Option* color =
+      addValue(
+          command, "--env-color", "R,G,B", [&options](const std::string& text) { options.color = parseColor(text); },
+          "Constant environment radiance, linear Rec.709")
+          ->excludes(file)
+          ->group(kGroup);
+  CLI::Option* sky =
+      addValue(
+          command, "--sky", "ELEVATION[,AZIMUTH[,TURBIDITY]]",
+          [&options](const std::string& text) { options.sky = parseSky(text); },
+          "Clear sky and sun in cd/m^2 and lux: degrees above the horizon, degrees from -z towards +x (0), haze from "
+          "2 to 10 (3)")
+          ->excludes(file)
+          ->excludes(color)
+          ->group(kGroup);
   addValue(
       command, "--env-intensity", "X",
       [&options](const std::string& text) { options.intensity = parseNumber(text, 0, 1e30); },
@@ -83,6 +102,7 @@ void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options) {
       command, "--env-rotation", "DEGREES",
       [&options](const std::string& text) { options.rotationDegrees = parseNumber(text, -1e6, 1e6); },
       "Turns the environment about the vertical axis (0)")
+      ->excludes(sky)
       ->group(kGroup);
 }
 

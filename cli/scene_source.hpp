@@ -10,17 +10,19 @@
 #include <CLI/CLI.hpp>
 
 #include "isophote/scene.hpp"
+#include "isophote/sky.hpp"
 
 namespace isophote::cli {
 
 struct EnvironmentOptions {
   std::string file;
   std::optional<glm::vec3> color;
+  std::optional<SkyOptions> sky;
   std::optional<double> intensity;
   std::optional<double> rotationDegrees;
 };
 
-/// --env, --env-color, --env-intensity, --env-rotation
+/// --env, --env-color, --sky, --env-intensity, --env-rotation
 void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options);
 
 /// --variant

@@ -79,6 +79,11 @@ std::vector<SettingEntry> makeTable() {
               "power, or all alike"},
              estimator, &E::lightSelection,
              {{"bvh", LightSelection::Bvh}, {"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}),
+      choice(
+          {"triangle-light-sampling", "area, solid-angle", "area", "area",
+           "how points on emissive triangles are sampled: alike on the triangle, or alike as seen from the receiver"},
+          estimator, &E::triangleLightSampling,
+          {{"solid-angle", TriangleLightSampling::SolidAngle}, {"area", TriangleLightSampling::Area}}),
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
              estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
       choice(

@@ -38,8 +38,8 @@ def ground():
 
 
 def lamp(rng, center):
-    """A triangle of a few centimetres whose front looks down, within 60 degrees: cameras above see its dark back."""
-    tilt, turn, size = rng.uniform(0, math.pi / 3), rng.uniform(0, 2 * math.pi), rng.uniform(0.01, 0.04)
+    """A triangle of a few millimetres whose front looks down: a camera above sees its dark back."""
+    tilt, turn, size = rng.uniform(0, 0.02), rng.uniform(0, 2 * math.pi), rng.uniform(0.002, 0.008)
     down = (math.sin(tilt) * math.cos(turn), -math.cos(tilt), math.sin(tilt) * math.sin(turn))
     right = normalize(cross(down, (1.0, 0.0, 0.0)))
     up = cross(down, right)
@@ -53,7 +53,7 @@ def lamps(rng, count, clumps):
         x, z, spread = rng.choice(clumps)
         x = min(max(rng.gauss(x, spread), -0.49 * SIDE), 0.49 * SIDE)
         z = min(max(rng.gauss(z, spread), -0.49 * SIDE), 0.49 * SIDE)
-        center = (x, height(x, z) + 0.1 + rng.expovariate(1 / 0.6), z)
+        center = (x, height(x, z) + min(2 + rng.expovariate(1 / 0.6), 5), z)
         positions += lamp(rng, center)
     return Shape(positions, list(range(3 * count)))
 
@@ -62,23 +62,27 @@ def scene(triangles):
     rng = random.Random(54)
     gltf = Gltf("A landscape of many lamps")
     gltf.node(gltf.mesh("ground", gltf.shape(ground()), gltf.lambert("ground", (0.5, 0.5, 0.5))), name="ground")
-    pillar = gltf.lambert("pillar", (0.7, 0.65, 0.6))
+    block = gltf.lambert("block", (0.7, 0.65, 0.6))
     for i in range(40):
         x, z = rng.uniform(-45, 45), rng.uniform(-45, 45)
-        y, w, h = height(x, z) - 1, rng.uniform(0.3, 1.2), rng.uniform(2, 7)
+        y, w, h = height(x, z) - 1, rng.uniform(0.3, 1.2), rng.uniform(1.3, 2)
         corners = [(x + w * a, y + h * b, z + w * c) for b in (0, 1) for a, c in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         faces = [(0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0), (4, 7, 6, 5)]
         positions = [corners[k] for face in faces for k in face]
         indices = [4 * f + k for f in range(5) for k in (0, 1, 2, 0, 2, 3)]
-        gltf.node(gltf.mesh(f"pillar {i}", gltf.shape(Shape(positions, indices)), pillar))
+        gltf.node(gltf.mesh(f"block {i}", gltf.shape(Shape(positions, indices)), block))
     clumps = [(rng.uniform(-45, 45), rng.uniform(-45, 45), rng.uniform(0.5, 12)) for _ in range(120)]
     groups = 4 * len(COLORS)
+    primitives = []  # of one mesh, so that one BVH holds all lamps
     for i in range(groups):
-        strength = 40.0 * 10.0 ** rng.uniform(-1.5, 1.0)
+        strength = 1000.0 * 10.0 ** rng.uniform(-1.5, 1.0)
         radiance = tuple(strength * c for c in COLORS[i % len(COLORS)])
         count = triangles * (i + 1) // groups - triangles * i // groups
         shape = gltf.shape(lamps(rng, count, clumps))
-        gltf.node(gltf.mesh(f"lamps {i}", shape, gltf.emitter(f"lamp {i}", radiance)))
+        primitives.append({**shape, "material": gltf.emitter(f"lamp {i}", radiance)})
+    mesh = gltf.mesh("lamps", {}, 0)
+    gltf.json["meshes"][mesh]["primitives"] = primitives
+    gltf.node(mesh, name="lamps")
     gltf.camera("view", (0.0, 9.0, 40.0), (0.0, 0.0, 0.0), math.radians(50.0), 16 / 9)
     return gltf
 

@@ -7,6 +7,7 @@
 #include "light/environment.glsl"
 #include "light/light_choice.glsl"
 #include "light/punctual.glsl"
+#include "light/spherical_triangle.glsl"
 #include "sampling/warp.glsl"
 
 struct LightSample {
@@ -38,10 +39,28 @@ LightSample noLightSample() {
   return LightSample(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, false);
 }
 
+const uint kTriangleBySolidAngle = 1u; // value of kTriangleLightSampling, as isophote::TriangleLightSampling
+
+SphericalTriangle emitterSeenFrom(const SceneRef scene, uint instance, uint triangle, vec3 p) {
+  BvhTriangleRef triangles = BvhTriangleRef(scene.view.triangles);
+  const Affine worldFromObject = worldFromObjectOf(InstanceRef(scene.view.instances), instance);
+  return sphericalTriangle(p, transformPoint(worldFromObject, triangles.items[triangle].v0),
+                           transformPoint(worldFromObject, triangles.items[triangle].v1),
+                           transformPoint(worldFromObject, triangles.items[triangle].v2));
+}
+
 LightSample sampleEmissiveTriangle(const SceneRef scene, uint emitter, float pmf, vec3 p, vec2 u) {
   const EmissiveTriangle light = EmissiveTriangleRef(scene.view.emissiveTriangles).items[emitter];
-  const vec3 weights = sampleUniformTriangle(u);
-  SurfaceHit surface = surfaceAt(scene, light.instance, light.triangle, weights.xy);
+  vec2 barycentrics = sampleUniformTriangle(u).xy;
+  float pdfSpherical = 0.0; // 0: sampled by area
+  if (kTriangleLightSampling == kTriangleBySolidAngle) {
+    const SphericalTriangle seen = emitterSeenFrom(scene, light.instance, light.triangle, p);
+    if (isStable(seen)) {
+      barycentrics = sampleSphericalTriangle(seen, u).yz;
+      pdfSpherical = 1.0 / seen.solidAngle;
+    }
+  }
+  SurfaceHit surface = surfaceAt(scene, light.instance, light.triangle, barycentrics);
   const vec3 toLight = surface.p - p;
   LightSample result = noLightSample();
   result.distance = length(toLight);
@@ -52,7 +71,8 @@ LightSample sampleEmissiveTriangle(const SceneRef scene, uint emitter, float pmf
   result.point = surface.p;
   result.pointError = surface.pError;
   result.ngLight = surface.ng;
-  result.pdfSolidAngle = pmf * areaToSolidAngle(surface.area, abs(cosLight), result.distance);
+  result.pdfSolidAngle =
+      pmf * (pdfSpherical > 0.0 ? pdfSpherical : areaToSolidAngle(surface.area, abs(cosLight), result.distance));
   result.radiance = emittedRadiance(scene, surface) * surfaceCoverage(scene, surface);
   result.valid = result.pdfSolidAngle > 0.0 && any(greaterThan(result.radiance, vec3(0.0)));
   return result;
@@ -117,6 +137,10 @@ float emitterPdfSolidAngle(const SceneRef scene, const SurfaceHit surface, float
   const uint firstEmitter = InstanceRef(scene.view.instances).items[surface.instance].firstEmitter;
   const uint firstEmissive = GeometryRef(scene.view.geometries).items[surface.geometry].firstEmissive;
   const float pmf = lightPmf(scene, receiver, firstEmitter + firstEmissive + surface.primitiveIndex);
+  if (kTriangleLightSampling == kTriangleBySolidAngle) {
+    const SphericalTriangle seen = emitterSeenFrom(scene, surface.instance, surface.triangle, receiver.p);
+    if (isStable(seen)) return pmf / seen.solidAngle;
+  }
   return pmf * areaToSolidAngle(surface.area, cosLight, distance);
 }
 

@@ -18,9 +18,7 @@ const float kSmallestSquaredDistance = 1e-14;
 /// cos(max(a - b, 0)) of angles in [0, pi]. x, y: cosine and sine.
 float cosDifference(vec2 a, vec2 b) { return a.x > b.x ? 1.0 : a.x * b.x + a.y * b.y; }
 
-/// sin(max(a - b, 0)).
-float sinDifference(vec2 a, vec2 b) { return a.x > b.x ? 0.0 : a.y * b.x - a.x * b.y; }
-
+/// Cosine and sine of an angle in [0, pi].
 vec2 withSine(float cosine) { return vec2(cosine, sqrt(max(1.0 - cosine * cosine, 0.0))); }
 
 vec3 decodeOctahedral(uint bits) {
@@ -33,29 +31,48 @@ vec3 decodeOctahedral(uint bits) {
   return normalize(v);
 }
 
+/// Upper bound of the cosine between `axis` and the directions from the receiver to the points of a box.
+///
+/// Two bounds, the smaller of which holds: that of the sphere around the box, good for small boxes far away, and the
+/// box's reach along the axis over its distance, good for flat boxes seen from the side.
+/// @param toCenter  from the receiver to the box's center, length `distance`
+/// @param nearest   distance of the box, > 0
+/// @param b         cosine and sine of the sphere's angular radius
+float largestCosine(vec3 axis, vec3 toCenter, float distance, vec3 extent, float nearest, vec2 b) {
+  const float along = dot(axis, toCenter);
+  const float reach = along + dot(abs(axis), extent);
+  const float farthest = distance + length(extent);
+  const float byReach = reach / (reach > 0.0 ? nearest : farthest);
+  return min(cosDifference(withSine(clamp(along / distance, -1.0, 1.0)), b), byReach);
+}
+
 /// An estimate of the irradiance from a cluster of lights, never 0 where one of them can reach the receiver.
 ///
 /// @param at  position in the tree's lengths
 float lightImportance(const LightTreeNode node, const LightReceiver at) {
-  if (node.radius == kLightTreeFixed) return node.intensity;
-  const vec3 toReceiver = at.p - node.center;
-  const float squaredRadius = max(node.radius * node.radius, kSmallestSquaredDistance);
-  const float squaredDistance = dot(toReceiver, toReceiver);
+  if (node.extent.x == kLightTreeFixed) return node.intensity;
+  const vec3 toCenter = node.center - at.p;
+  const float squaredRadius = max(dot(node.extent, node.extent), kSmallestSquaredDistance);
+  const float squaredDistance = dot(toCenter, toCenter);
   const float irradiance = node.intensity / max(squaredDistance, squaredRadius);
-  if (squaredDistance <= squaredRadius) return irradiance; // within the cluster every direction is possible
+  const float nearest = length(max(abs(toCenter) - node.extent, vec3(0.0)));
+  if (!(nearest > 0.0)) return irradiance; // within the box every direction is possible
 
-  const vec3 direction = toReceiver * inversesqrt(squaredDistance);
-  const float squaredSineB = squaredRadius / squaredDistance; // the cluster's angular radius
-  const vec2 b = vec2(sqrt(1.0 - squaredSineB), sqrt(squaredSineB));
+  const float distance = sqrt(squaredDistance);
+  vec2 b = vec2(-1.0, 0.0); // the cluster's angular radius; all directions within the sphere
+  if (squaredDistance > squaredRadius) {
+    const float squaredSine = squaredRadius / squaredDistance;
+    b = vec2(sqrt(1.0 - squaredSine), sqrt(squaredSine));
+  }
+  const vec3 axis = decodeOctahedral(node.axis);
+  const bool twoSided = (node.child & kLightTreeTwoSided) != 0u;
+  const bool before = dot(axis, toCenter) < 0.0; // the receiver is on the axis's side of the center
+  const float cosAxis = largestCosine(twoSided && !before ? axis : -axis, toCenter, distance, node.extent, nearest, b);
   const vec2 cosines = unpackSnorm2x16(node.cosines);
-  float cosAxis = dot(decodeOctahedral(node.axis), direction);
-  if ((node.child & kLightTreeTwoSided) != 0u) cosAxis = abs(cosAxis);
-  const vec2 w = withSine(cosAxis);
-  const vec2 o = withSine(cosines.x);
-  const float cosEmission = cosDifference(vec2(cosDifference(w, o), sinDifference(w, o)), b);
+  const float cosEmission = cosDifference(withSine(cosAxis), withSine(cosines.x));
   if (cosEmission < cosines.y - kCosineSlack) return 0.0;
   float cosReceiver = 1.0;
-  if (at.ns != vec3(0.0)) cosReceiver = cosDifference(withSine(-dot(at.ns, direction)), b);
+  if (at.ns != vec3(0.0)) cosReceiver = largestCosine(at.ns, toCenter, distance, node.extent, nearest, b);
   if (cosReceiver < -kCosineSlack) return 0.0;
   return irradiance * max(cosEmission, kSmallestCosine) * max(cosReceiver, kSmallestCosine);
 }

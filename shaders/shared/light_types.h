@@ -17,9 +17,9 @@ struct AliasEntry {
 // A cluster of lights in the light tree, or one light. Lengths and positions are SceneView.lightTreeScale times the
 // world's, relative to its origin; intensities are shares of their sum over all lights with a place.
 struct LightTreeNode {
-  vec3 center;     // of a sphere that holds the lights
-  float radius;    // kLightTreeFixed: what is below has no place, or none that counts here; `intensity` is its weight
-  float intensity; // largest, summed over the lights
+  vec3 center;     // of a box that holds the lights
+  vec3 extent;     // half its size; x kLightTreeFixed: what is below has no place, or none that counts here
+  float intensity; // largest, summed over the lights; where fixed, its weight
   uint axis;       // of the cone of normals: octahedral, two signed normalised 16-bit numbers
   uint cosines;    // of thetaO and thetaE (accel/light_cone.hpp), two signed normalised 16-bit numbers
   uint child;      // first of two neighbouring nodes; with kLightTreeLeaf a light; kLightTreeTwoSided apart

@@ -10,8 +10,12 @@
 void hitLight(SceneRef scene, const LightSampleCase c, inout LightSampleResult result) {
   if (result.light < scene.view.emissiveTriangleCount) {
     const EmissiveTriangle light = EmissiveTriangleRef(scene.view.emissiveTriangles).items[result.light];
-    const SurfaceHit surface =
-        surfaceAt(scene, light.instance, light.triangle, sampleUniformTriangle(c.u).xy, -result.wi);
+    vec2 barycentrics = sampleUniformTriangle(c.u).xy;
+    const SphericalTriangle seen = emitterSeenFrom(scene, light.instance, light.triangle, c.p);
+    if (kTriangleLightSampling == kTriangleBySolidAngle && isStable(seen)) {
+      barycentrics = sampleSphericalTriangle(seen, c.u).yz;
+    }
+    const SurfaceHit surface = surfaceAt(scene, light.instance, light.triangle, barycentrics, -result.wi);
     result.hitPdf = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, result.wi)), distance(surface.p, c.p),
                                          LightReceiver(c.p, vec3(0.0)));
     result.hitRadiance = emittedRadiance(scene, surface);

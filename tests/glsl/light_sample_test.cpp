@@ -24,9 +24,12 @@ constexpr gpu::SpecConstant kNoTextures{1, 0};
 constexpr gpu::SpecConstant kNoTriangles{6, 0};
 constexpr gpu::SpecConstant kNoPunctual{7, 0};
 constexpr gpu::SpecConstant kNoEnvironment{8, 0};
+// Of shared/settings.inc.
+constexpr gpu::SpecConstant kByArea{69, 0};
+constexpr gpu::SpecConstant kBySolidAngle{69, 1};
 
 std::vector<LightSampleResult> run(uint64_t scene, const std::vector<LightSampleCase>& cases,
-                                   const std::vector<gpu::SpecConstant>& constants = {kNoTextures}) {
+                                   const std::vector<gpu::SpecConstant>& constants = {kNoTextures, kByArea}) {
   return test::runProbe<LightSampleCase, LightSampleResult>(test_glsl_kernels::kernelSource("light_sample_probe"),
                                                             cases, scene, constants);
 }
@@ -183,10 +186,14 @@ TEST(LightSample, TrianglesMatchTheirDefinitionInDouble) {
   EXPECT_GT(dark, 3'000);
 }
 
-TEST(LightSample, WhatLightSamplingSaysARayThatHitsIsToldToo) {
+class LightSampleBy : public testing::TestWithParam<gpu::SpecConstant> {};
+INSTANTIATE_TEST_SUITE_P(TriangleSampling, LightSampleBy, testing::Values(kByArea, kBySolidAngle),
+                         [](const auto& tested) { return tested.param.value == 0 ? "Area" : "SolidAngle"; });
+
+TEST_P(LightSampleBy, WhatLightSamplingSaysARayThatHitsIsToldToo) {
   MixedScene mixed;
   const auto cases = randomCases(50'000, 4);
-  const auto results = run(mixed.scene.address(), cases);
+  const auto results = run(mixed.scene.address(), cases, {kNoTextures, GetParam()});
   size_t mapEdges = 0;
   for (size_t i = 0; i < cases.size(); ++i) {
     const auto& s = results[i];
@@ -230,7 +237,7 @@ TEST(LightSample, AbsentKindsOfLightCanBeCompiledAway) {
     MixedScene mixed;
     keep(mixed.scene);
     const uint64_t address = mixed.scene.address();
-    const auto general = run(address, cases);
+    const auto general = run(address, cases, {kNoTextures});
     const auto specialized = run(address, cases, constants);
     for (size_t i = 0; i < cases.size(); ++i) {
       ASSERT_EQ(general[i].light, specialized[i].light);
@@ -293,7 +300,7 @@ double lambertPolygon(const std::array<glm::dvec3, 3>& v) {
 }
 
 // 5 triangles above the receiver, one light each; 1e6 samples: half width of the t-test about 0.25% of the irradiance.
-TEST(LightSample, TriangleIrradianceMatchesLambertsFormula) {
+TEST_P(LightSampleBy, TriangleIrradianceMatchesLambertsFormula) {
   std::mt19937 generator(6);
   std::uniform_real_distribution<float> unit(-1, 1);
   for (int scene = 0; scene < 5; ++scene) {
@@ -311,7 +318,7 @@ TEST(LightSample, TriangleIrradianceMatchesLambertsFormula) {
     lights.powers = {1};
     auto cases = randomCases(400'000, 0);
     test::Moments irradiance;
-    for (const auto& s : run(lights.address(), cases)) {
+    for (const auto& s : run(lights.address(), cases, {kNoTextures, GetParam()})) {
       irradiance.add(s.valid != 0u ? static_cast<double>(s.radiance.r) * std::max(0.0f, s.wi.z) /
                                          static_cast<double>(s.pdfSolidAngle)
                                    : 0.0);

@@ -29,23 +29,35 @@ double angle(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+/// Smallest angle that `axis` can make with directions from p to points of the box.
+double smallestAngle(const glm::dvec3& axis, const glm::dvec3& toCenter, const glm::dvec3& extent) {
+  const double distance = glm::length(toCenter);
+  const double radius = std::max(glm::length(extent), 1e-7);
+  double bySphere = 0;
+  if (distance > radius) bySphere = std::max(angle(axis, toCenter) - std::asin(radius / distance), 0.0);
+  const double reach = glm::dot(axis, toCenter) + glm::dot(glm::abs(axis), extent);
+  const double nearest = glm::length(glm::max(glm::abs(toCenter) - extent, glm::dvec3(0)));
+  const double byReach = std::acos(std::clamp(reach / (reach > 0 ? nearest : distance + radius), -1.0, 1.0));
+  return std::max(bySphere, byReach);
+}
+
 double importance(const gpu::LightTreeNode& node, const glm::dvec3& p, const glm::dvec3& ns) {
-  if (node.radius == gpu::kLightTreeFixed) return static_cast<double>(node.intensity);
-  const glm::dvec3 away = p - glm::dvec3(node.center);
-  const double d = glm::length(away);
-  const double radius = std::max(static_cast<double>(node.radius), 1e-7);
-  if (d <= radius) return static_cast<double>(node.intensity) / (radius * radius);
-  const double thetaB = std::asin(radius / d);
+  if (node.extent.x == gpu::kLightTreeFixed) return static_cast<double>(node.intensity);
+  const glm::dvec3 toCenter = glm::dvec3(node.center) - p;
+  const glm::dvec3 extent(node.extent);
+  const double d = std::max({glm::length(toCenter), glm::length(extent), 1e-7});
+  const double irradiance = static_cast<double>(node.intensity) / (d * d);
+  if (glm::max(glm::abs(toCenter) - extent, glm::dvec3(0)) == glm::dvec3(0)) return irradiance;
   const double thetaO = std::acos(snorm(node.cosines & 0xffffu));
   const double cosThetaE = snorm(node.cosines >> 16);
-  double thetaW = angle(axisOf(node.axis), away);
-  if (node.child & gpu::kLightTreeTwoSided) thetaW = std::min(thetaW, kPi - thetaW);
-  const double emission = std::cos(std::max(std::max(thetaW - thetaO, 0.0) - thetaB, 0.0));
+  const glm::dvec3 axis = axisOf(node.axis);
+  const bool turned = (node.child & gpu::kLightTreeTwoSided) && glm::dot(axis, toCenter) >= 0;
+  const double thetaW = smallestAngle(turned ? axis : -axis, toCenter, extent);
+  const double emission = std::cos(std::max(thetaW - thetaO, 0.0));
   if (emission < cosThetaE - 2e-3) return 0;
-  double reception = 1;
-  if (ns != glm::dvec3(0)) reception = std::cos(std::max(angle(ns, -away) - thetaB, 0.0));
+  const double reception = ns == glm::dvec3(0) ? 1 : std::cos(smallestAngle(ns, toCenter, extent));
   if (reception < -2e-3) return 0;
-  return static_cast<double>(node.intensity) / (d * d) * std::max(emission, 0.01) * std::max(reception, 0.01);
+  return irradiance * std::max(emission, 0.01) * std::max(reception, 0.01);
 }
 
 } // namespace

@@ -27,9 +27,11 @@ double polygonIrradiance(const std::vector<glm::dvec3>& vertices) {
 }
 
 /// Reflectance 1: radiance is irradiance / pi. 64 pixels of the same tiny view are the replicates.
-Image renderSensor(const Scene& scene, glm::dvec3 point, LightSampling mode, uint32_t samples) {
-  return renderImage(scene, sensorAt(point), 8, 8, samples,
-                     {.estimator = {.filter = PixelFilter::Box, .lightSampling = mode, .seed = 22}});
+Image renderSensor(const Scene& scene, glm::dvec3 point, LightSampling mode, uint32_t samples,
+                   TriangleLightSampling triangles = TriangleLightSampling::Area) {
+  EstimatorSettings estimator{.filter = PixelFilter::Box, .lightSampling = mode, .seed = 22};
+  estimator.triangleLightSampling = triangles;
+  return renderImage(scene, sensorAt(point), 8, 8, samples, {.estimator = estimator});
 }
 
 TEST(RenderAreaLight, Test22SquareGivesLambertsFormFactorCentredAndAtItsCorner) {
@@ -41,6 +43,17 @@ TEST(RenderAreaLight, Test22SquareGivesLambertsFormFactorCentredAndAtItsCorner) 
   }
   EXPECT_TRUE(
       pixelMeanIs(renderSensor(scene, {0, 0, 0}, LightSampling::BsdfOnly, 16384), "R", 2 * 0.2394564705, 0.012));
+}
+
+TEST(RenderAreaLight, Test22SquareBySolidAngle) {
+  const Scene scene = squareLightOverFloor(2);
+  for (const auto mode : {LightSampling::Mis, LightSampling::LightsOnly}) {
+    const auto render = [&](glm::dvec3 point) {
+      return renderSensor(scene, point, mode, 2048, TriangleLightSampling::SolidAngle);
+    };
+    EXPECT_TRUE(pixelMeanIs(render({0, 0, 0}), "R", 2 * 0.2394564705));
+    EXPECT_TRUE(pixelMeanIs(render({0.5, 0, 0.5}), "R", 2 * 0.1385323412, 0.004));
+  }
 }
 
 TEST(RenderAreaLight, Test22RandomTrianglesGiveLambertsFormFactor) {

@@ -60,6 +60,7 @@ TEST_F(CliUsage, WrongRenderFlagsExitWithTwoAndNameTheFlag) {
       {"--tonemap", {"filmic"}},
       {"--filter", {"triangle"}},
       {"--sampler", {"halton"}},
+      {"--sky", {"91", "-1", "45,0,1", "45,0,3,1", "noon"}},
       {"--env-color", {"1,1", "1,1,-1", "nan,0,0", "white"}},
       {"--env-intensity", {"-1", "nan"}},
       {"--env-rotation", {"north"}},

@@ -34,9 +34,8 @@ struct Cluster {
     empty = false;
   }
   [[nodiscard]] glm::dvec3 center() const { return 0.5 * (lower + upper); }
-  [[nodiscard]] double radius() const { return 0.5 * glm::length(upper - lower); }
-  // The paper's measure of area is the box's surface; the device bounds a cluster by a sphere, so its area is taken.
-  // Lights on a line then have a size, too.
+  // The paper's measure of area is the box's surface; here it is that of the sphere around it, which enters the
+  // importance, and which lights on a line have, too.
   [[nodiscard]] double cost() const {
     const glm::dvec3 diagonal = upper - lower;
     return empty ? 0 : intensity * solidAngleMeasure(cone) * glm::dot(diagonal, diagonal);
@@ -218,7 +217,7 @@ private:
 
   void setFixed(uint32_t node, double weight) {
     tree_.nodes[node].intensity = static_cast<float>(weight);
-    tree_.nodes[node].radius = gpu::kLightTreeFixed;
+    tree_.nodes[node].extent.x = gpu::kLightTreeFixed;
   }
 
   void setCluster(uint32_t node, const Cluster& cluster) {
@@ -227,7 +226,7 @@ private:
     out.center = glm::vec3(center);
     // Room for the rounding of the center and of the points that the device compares with it.
     const double slack = 1e-6 * std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), 1e-6});
-    out.radius = static_cast<float>(cluster.radius() * (1 + 1e-6) + slack);
+    out.extent = glm::vec3(0.5 * (1 + 1e-6) * (cluster.upper - cluster.lower) + slack);
     out.intensity = static_cast<float>(cluster.intensity);
     const PackedCone packed = pack(cluster.cone);
     out.axis = packed.axis;

@@ -16,6 +16,7 @@ namespace isophote::gltf {
 namespace {
 
 constexpr std::string_view kModeled[] = {
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",

@@ -12,6 +12,7 @@
 #include "scene/gltf_cameras_lights.hpp"
 #include "scene/gltf_document.hpp"
 #include "scene/gltf_extensions.hpp"
+#include "scene/gltf_image_light.hpp"
 #include "scene/gltf_instances.hpp"
 #include "scene/gltf_materials.hpp"
 #include "scene/gltf_meshes.hpp"
@@ -60,6 +61,7 @@ Scene load(const std::filesystem::path& file, const LoadOptions& options) {
   gltf::Meshes meshes(document, buffers, accessors, materials, variants);
   gltf::addInstances(document, accessors, graph, nodes, meshes, scene);
   addLightsAndCameras(document, nodes, scene);
+  scene.environment = gltf::readImageLight(document, textures);
   if (!gltf::arrayOrEmpty(document.root, "animations").empty()) {
     document.warnings.add("animations are ignored: the scene is in the static pose of its nodes");
   }

@@ -54,6 +54,7 @@ const Shape kBufferIndex = indexInto("/buffers");
 const Shape kViewIndex = indexInto("/bufferViews");
 const Shape kCameraIndex = indexInto("/cameras");
 const Shape kImageIndex = indexInto("/images");
+const Shape kImageLightIndex = indexInto("/extensions/EXT_lights_image_based/lights");
 const Shape kLightIndex = indexInto("/extensions/KHR_lights_punctual/lights");
 const Shape kMaterialIndex = indexInto("/materials");
 const Shape kMeshIndex = indexInto("/meshes");
@@ -148,7 +149,9 @@ const Shape kNode = object({{"camera", &kCameraIndex},
                             {"skin", &kSkinIndex},
                             {"translation", &kNumber3},
                             {"weights", &kFloats}});
-const Shape kScene = object({{"nodes", &kNodeIndices}});
+const Shape kImageLightReference = object({{"light", &kImageLightIndex, true}});
+const Shape kSceneExtensions = object({{"EXT_lights_image_based", &kImageLightReference}});
+const Shape kScene = object({{"nodes", &kNodeIndices}, {"extensions", &kSceneExtensions}});
 const Shape kSkin = object({{"inverseBindMatrices", &kAccessorIndex}, {"joints", &kJoints, true}});
 
 // Materials
@@ -258,11 +261,23 @@ const Shape kLight = object({{"name", &kString},
                              {"spot", &kSpot}});
 const Shape kLights = arrayOf(kLight);
 const Shape kLightsExtension = object({{"lights", &kLights, true}});
+const Shape kCoefficients = arrayOf(kFloat3, 9, 9);
+const Shape kCubeFaces = arrayOf(kImageIndex, 6, 6);
+const Shape kCubeLevels = arrayOf(kCubeFaces, 1);
+const Shape kImageLight = object({{"name", &kString},
+                                  {"rotation", &kFloat4},
+                                  {"intensity", &kFloat},
+                                  {"irradianceCoefficients", &kCoefficients, true},
+                                  {"specularImages", &kCubeLevels, true},
+                                  {"specularImageSize", &kPositive, true}});
+const Shape kImageLights = arrayOf(kImageLight);
+const Shape kImageLightsExtension = object({{"lights", &kImageLights, true}});
 const Shape kVariant = object({{"name", &kString, true}});
 const Shape kVariantList = arrayOf(kVariant, 1);
 const Shape kVariants = object({{"variants", &kVariantList, true}});
-const Shape kRootExtensions =
-    object({{"KHR_lights_punctual", &kLightsExtension}, {"KHR_materials_variants", &kVariants}});
+const Shape kRootExtensions = object({{"EXT_lights_image_based", &kImageLightsExtension},
+                                      {"KHR_lights_punctual", &kLightsExtension},
+                                      {"KHR_materials_variants", &kVariants}});
 
 // The root
 const Shape kAccessors = arrayOf(kAccessor);

@@ -113,6 +113,14 @@ Texture Textures::readSampler(const Json& texture) const {
 uint32_t Textures::useImage(uint32_t index, Scene& scene) {
   const auto found = images_.find(index);
   if (found != images_.end()) return found->second;
+  ImageData image = decode(index);
+  const auto result = static_cast<uint32_t>(scene.images.size());
+  scene.images.push_back(std::move(image));
+  images_.emplace(index, result);
+  return result;
+}
+
+ImageData Textures::decode(uint32_t index) {
   const Json& json = arrayOrEmpty(document_.root, "images")[index];
   const std::string pointer = fmt::format("/images/{}", index);
   const EncodedImage encoded = loadEncoded(document_, buffers_, json, pointer);
@@ -128,10 +136,7 @@ uint32_t Textures::useImage(uint32_t index, Scene& scene) {
   refuse(readImageHeader(encoded.bytes, document_.options.maxImagePixels, image));
   document_.claim(uint64_t{image.width} * image.height * 4 * image.bitsPerChannel / 8, pointer);
   refuse(decodeImage(encoded.bytes, image));
-  const auto result = static_cast<uint32_t>(scene.images.size());
-  scene.images.push_back(std::move(image));
-  images_.emplace(index, result);
-  return result;
+  return image;
 }
 
 } // namespace isophote::gltf

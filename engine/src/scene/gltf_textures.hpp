@@ -24,6 +24,10 @@ public:
   /// The same for a texture with glossiness in its alpha, which becomes roughness. Not shared between materials.
   [[nodiscard]] int32_t useGlossiness(uint32_t index, float glossinessFactor, Scene& scene);
 
+  /// Decodes glTF image `index` for a reader that keeps the pixels itself.
+  /// @throws as `use`
+  [[nodiscard]] ImageData decode(uint32_t index);
+
 private:
   [[nodiscard]] std::optional<uint32_t> source(uint32_t index) const;
   [[nodiscard]] uint32_t useImage(uint32_t index, Scene& scene);
