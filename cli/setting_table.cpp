@@ -74,6 +74,10 @@ std::vector<SettingEntry> makeTable() {
               "next event estimation and BSDF sampling combined, or one alone"},
              estimator, &E::lightSampling,
              {{"mis", LightSampling::Mis}, {"lights", LightSampling::LightsOnly}, {"bsdf", LightSampling::BsdfOnly}}),
+      choice({"sphere-light-sampling", "cone, area", "cone", "cone",
+              "points on sphere lights: by the solid angle they are seen under, or by area (noisier)"},
+             estimator, &E::sphereLightSampling,
+             {{"cone", SphereLightSampling::Cone}, {"area", SphereLightSampling::Area}}),
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
              estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
       choice(

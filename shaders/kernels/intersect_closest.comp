@@ -1,4 +1,5 @@
-// RayQueue -> surface queue | escaped queue (or straight to finished where nothing shines from outside).
+// RayQueue -> surface queue | escaped queue: rays that met a sphere light or nothing (straight to finished where
+// nothing shines from outside).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,10 +18,13 @@ void main() {
   }
   const RayHit hit = traceClosest(SceneRef(pc.scene), ray.origin, ray.direction, ray.tMin, ray.tMax, key);
   if (hit.stackOverflow) countStatus(kStatusStackOverflow);
-  if (hit.found) {
+  if (kHasSphereLights) HitRef(pc.hits).items[slot].instance = hit.instance;
+  if (kHasSphereLights && hit.found && hit.triangle == kInvalidIndex) {
+    pushSlot(kQueueEscaped, slot);
+  } else if (hit.found) {
     HitRef(pc.hits).items[slot] = HitState(hit.instance, hit.triangle, hit.barycentrics);
     pushSlot(kQueueSurface, slot);
-  } else if (kHasEnvironment) {
+  } else if (kHasEnvironment || kHasSuns) {
     pushSlot(kQueueEscaped, slot);
   } else {
     pushSlot(kQueueFinished, slot);

@@ -17,7 +17,8 @@ void main() {
                    paths.items[slot].depth | 0x80000000u);
   }
   bool stackOverflow;
-  if (!traceOccluded(SceneRef(pc.scene), shadow.origin, shadow.direction, 0.0, shadow.tMax, key, stackOverflow)) {
+  if (!traceOccluded(SceneRef(pc.scene), shadow.origin, shadow.direction, 0.0, shadow.tMax, key, shadow.target,
+                     stackOverflow)) {
     paths.items[slot].radiance += shadow.contribution;
   }
   if (stackOverflow) countStatus(kStatusStackOverflow);

@@ -25,7 +25,7 @@ const uint kVertexPairs = 4u;
 const uint kRouletteDepth = 3u;
 const float kRouletteMaxSurvival = 0.999;
 
-const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
+const bool kHasSizedLights = kHasEmissiveTriangles || kHasSphereLights || kHasSuns || kHasEnvironment;
 
 // A light's contribution at the surface, put up for the visibility test.
 void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
@@ -52,7 +52,7 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
     direction = target - origin; // not normalised: t runs from 0 to 1
     tMax = 1.0;
   }
-  ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
+  ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, light.target, contribution);
   pushSlot(kQueueShadow, slot);
 }
 
@@ -122,7 +122,7 @@ void main() {
     const vec3 woLocal = toLocal(frame, wo);
     const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
-    if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
+    if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
       sampleDirectLight(scene, surface, material, frame, woLocal, key, pair, slot, path.beta);
     }
     alive = continuePath(scene, surface, material, frame, woLocal, key, pair, slot, path);

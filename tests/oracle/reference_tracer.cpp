@@ -12,6 +12,7 @@
 #include "oracle/random_stream.hpp"
 #include "oracle/reference_camera.hpp"
 #include "oracle/scattering.hpp"
+#include "oracle/sized_lights.hpp"
 #include "oracle/surface.hpp"
 #include "oracle/triangle_tree.hpp"
 
@@ -47,7 +48,17 @@ public:
     for (uint32_t depth = 0;; ++depth) {
       const glm::dvec3 wo = -ray.direction;
       const Hit hit = tree_.closest(ray, [&](const Hit& candidate) { return covers(candidate, random); });
+      const uint32_t sphere = closestSphere(ray, hit.t);
+      if (sphere != kNoLight) {
+        const glm::dvec3 Le = sphereRadiance(scene_.lights[sphere], ray.origin, -wo);
+        return radiance + beta * Le * hitWeight(last, lights_.pdfSized(sphere, ray.origin));
+      }
       if (hit.triangle == kNoTriangle) {
+        for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+          const PunctualLight& sun = scene_.lights[i];
+          if (!sun.isSun() || !sunCone(sun).contains(-wo)) continue;
+          radiance += beta * sunRadiance(sun) * hitWeight(last, lights_.pdfSized(i, ray.origin));
+        }
         if (environment_ != nullptr)
           radiance += beta * environment_->radiance(-wo) * hitWeight(last, lights_.pdfEnvironment(-wo));
         return radiance;
@@ -80,6 +91,29 @@ private:
     return coverage >= 1 || random.next() < coverage;
   }
 
+  /// The sphere light that the ray meets first, before `tMax`.
+  [[nodiscard]] uint32_t closestSphere(Ray ray, double tMax) const {
+    uint32_t closest = kNoLight;
+    ray.tMax = std::min(ray.tMax, tMax);
+    for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+      if (!scene_.lights[i].isSphere()) continue;
+      const double t = intersectSphere(scene_.lights[i], ray);
+      if (t == kInfinity) continue;
+      closest = i;
+      ray.tMax = t;
+    }
+    return closest;
+  }
+
+  /// Whether a sphere light other than `target` is in the way.
+  [[nodiscard]] bool behindSphere(const Ray& shadow, uint32_t target) const {
+    for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+      if (i != target && scene_.lights[i].isSphere() && intersectSphere(scene_.lights[i], shadow) != kInfinity)
+        return true;
+    }
+    return false;
+  }
+
   /// Balance-heuristic weight of meeting a light by the direction `last` whose light sample has density `lightPdf`.
   [[nodiscard]] double hitWeight(const ScatterSample& last, double lightPdf) const {
     if (last.delta || settings_.lightSampling == LightSampling::BsdfOnly || !(lightPdf > 0)) return 1;
@@ -95,6 +129,7 @@ private:
     const ScatterValue scattered = scattering.evaluate(light.wi);
     if (scattered.value == glm::dvec3(0)) return glm::dvec3(0);
     const Ray shadow{point.position, light.wi, offset_, light.distance - offset_, leaving, light.triangle};
+    if (behindSphere(shadow, light.sphere)) return glm::dvec3(0);
     if (tree_.occluded(shadow, [&](const Hit& candidate) { return covers(candidate, random); })) return glm::dvec3(0);
     const bool alone = light.punctual || settings_.lightSampling == LightSampling::LightsOnly;
     const double weight = alone ? 1 : light.pdf / (light.pdf + scattered.pdf);

@@ -93,7 +93,10 @@ struct Instance {
 
 enum class LightKind : uint32_t { Point, Spot, Directional };
 
-/// KHR_lights_punctual. `intensity` is color * intensity: W/sr per channel, or W/m^2 for directional.
+/// KHR_lights_punctual, with a size beyond it. `intensity` is color * intensity: W/sr per channel, or W/m^2 for
+/// directional. With a radius, point and spot lights are opaque spheres of radiance intensity / (pi radius^2), by a
+/// spot's falloff in the direction of emission; directional lights are disks at infinity that put `intensity` on a
+/// surface facing their center.
 struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::Point;
@@ -101,8 +104,12 @@ struct PunctualLight {
   float range = 0;          ///< 0: unlimited
   float innerConeAngle = 0; ///< radians, spot only
   float outerConeAngle = 0.7853981634f;
+  float radius = 0; ///< 0: none; point, spot: world units; directional: radians, at most pi / 2
   glm::dvec3 position{0};
   glm::dvec3 direction{0, 0, -1}; ///< unit, the way the light travels
+
+  [[nodiscard]] bool isSphere() const { return radius > 0 && kind != LightKind::Directional; }
+  [[nodiscard]] bool isSun() const { return radius > 0 && kind == LightKind::Directional; }
 };
 
 enum class CameraKind : uint32_t { Perspective, Orthographic };

@@ -11,6 +11,8 @@ namespace isophote {
 enum class SamplerKind : uint32_t { Sobol, Independent };
 enum class PixelFilter : uint32_t { Box, Gaussian, BlackmanHarris };
 enum class LightSampling : uint32_t { Mis, LightsOnly, BsdfOnly };
+/// Both see the whole sphere: uniformly in solid angle, or over its area as Monte Carlo textbooks begin.
+enum class SphereLightSampling : uint32_t { Cone, Area };
 enum class MisHeuristic : uint32_t { Balance, Power };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
@@ -21,6 +23,7 @@ struct EstimatorSettings {
   PixelFilter filter = PixelFilter::BlackmanHarris;
   LightSampling lightSampling = LightSampling::Mis;
   MisHeuristic misHeuristic = MisHeuristic::Power;
+  SphereLightSampling sphereLightSampling = SphereLightSampling::Cone;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;
   uint64_t seed = 0;

@@ -22,6 +22,7 @@ std::vector<gpu::SpecConstant> specialization(const FeatureSet& features, const 
   constants.push_back({kSampler, static_cast<uint32_t>(settings.sampler)});
   constants.push_back({kLightSampling, static_cast<uint32_t>(settings.lightSampling)});
   constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
+  constants.push_back({kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
   return constants;
 }
@@ -31,7 +32,14 @@ bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings
   if (settings.maxDepth == 0) return false;
   if (features.has(Feature::kHasPunctualLights)) return true;
   return settings.lightSampling != LightSampling::BsdfOnly &&
-         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasEnvironment));
+         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights) ||
+          features.has(Feature::kHasSuns) || features.has(Feature::kHasEnvironment));
+}
+
+// Whether a ray that met no surface can see anything.
+bool shinesBeyondSurfaces(const FeatureSet& features) {
+  return features.has(Feature::kHasEnvironment) || features.has(Feature::kHasSuns) ||
+         features.has(Feature::kHasSphereLights);
 }
 
 } // namespace
@@ -59,7 +67,7 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                            .shadeSurface = make("shade_surface"),
                            .intersectShadow = std::nullopt,
                            .accumulate = make("accumulate")};
-  if (features.has(Feature::kHasEnvironment)) kernels.shadeEscaped = make("shade_escaped");
+  if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
   if (samplesLights(features, settings)) kernels.intersectShadow = make("intersect_shadow");
   return kernels;
 }

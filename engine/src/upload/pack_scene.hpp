@@ -47,7 +47,8 @@ struct PackedScene {
   std::vector<PackedTexture> textures;
   std::vector<gpu::AliasEntry> lightAlias;
   std::vector<gpu::EmissiveTriangle> emissiveTriangles;
-  std::vector<gpu::PunctualLightRecord> punctualLights;
+  std::vector<gpu::PunctualLightRecord> punctualLights; ///< suns first, otherwise as Scene::lights
+  uint32_t sunCount = 0;
   std::vector<glm::vec3> environmentPixels;
   std::vector<float> environmentMarginal;
   std::vector<float> environmentConditional;
