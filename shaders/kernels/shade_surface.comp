@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "bsdf/material.glsl"
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/surface_bsdf.glsl"
 #include "film/aov.glsl"
 #include "geometry/ray_offset.glsl"
 #include "geometry/surface.glsl"

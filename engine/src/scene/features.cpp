@@ -8,11 +8,6 @@
 namespace isophote {
 namespace {
 
-using TextureMember = TextureRef Material::*;
-constexpr TextureMember kTextureMembers[] = {&Material::baseColorTexture, &Material::metallicRoughnessTexture,
-                                             &Material::normalTexture,    &Material::emissiveTexture,
-                                             &Material::specularTexture,  &Material::specularColorTexture};
-
 /// Smallest value of the green channel, in [0, 1]. Filtering cannot go below it.
 float smallestGreen(const ImageData& image) {
   const size_t channelBytes = image.bitsPerChannel / 8;
@@ -38,8 +33,8 @@ bool canBeMirror(const Scene& scene, const Material& material) {
 }
 
 void addMaterial(const Scene& scene, const Material& material, FeatureSet& features) {
-  const auto isUsed = [&](TextureMember member) { return (material.*member).present(); };
-  if (std::any_of(std::begin(kTextureMembers), std::end(kTextureMembers), isUsed)) {
+  const std::vector<const TextureRef*> refs = textureRefs(material);
+  if (std::any_of(refs.begin(), refs.end(), [](const TextureRef* ref) { return ref->present(); })) {
     features.add(Feature::kHasTextures);
   }
   if (material.normalTexture.present()) features.add(Feature::kHasNormalMaps);
