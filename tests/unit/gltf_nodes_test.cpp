@@ -216,6 +216,33 @@ TEST(GltfLights, AreReadAndPlaced) {
   expectNear(scene.lights[2].direction, {0, 0, -1});
 }
 
+TEST(GltfLights, ExtrasGiveThemASize) {
+  const auto lightWith = [](Json light) {
+    GltfAsset asset = withNodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {3, 3, 3}}}});
+    asset.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({std::move(light)});
+    return load(asset);
+  };
+  const auto withRadius = [&](const char* type, Json radius) {
+    return lightWith({{"type", type}, {"extras", {{"radius", std::move(radius)}}}});
+  };
+  EXPECT_EQ(withRadius("point", 0.25).lights.at(0).radius, 0.25f); // the node's scale does not touch it
+  EXPECT_TRUE(withRadius("spot", 2).lights.at(0).isSphere());
+  EXPECT_TRUE(withRadius("directional", 0.004).lights.at(0).isSun());
+  for (const Json& foreign : {Json("wide"), Json(nullptr), Json({1, 2})}) { // another program's extras
+    const Scene scene = withRadius("point", foreign);
+    EXPECT_EQ(scene.lights.at(0).radius, 0);
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+  EXPECT_EQ(lightWith({{"type", "point"}, {"extras", 7}}).lights.at(0).radius, 0);
+  const Scene negative = withRadius("point", -1);
+  EXPECT_EQ(negative.lights.at(0).radius, 0);
+  EXPECT_EQ(negative.warnings.size(), 1u);
+  EXPECT_LE(withRadius("directional", 3).lights.at(0).radius, 1.5707964f);
+  const Scene tiny = withRadius("point", 1e-20); // its radiance would leave the range of float
+  EXPECT_EQ(tiny.lights.at(0).radius, 0);
+  EXPECT_EQ(tiny.warnings.size(), 1u);
+}
+
 TEST(GltfLights, ValuesOutOfRangeAreClamped) {
   GltfAsset asset = withNodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}});
   asset.json["extensions"]["KHR_lights_punctual"]["lights"] = {
