@@ -144,6 +144,21 @@ private:
   double offset_ = 0; ///< world units
 };
 
+/// Uniform on the aperture of radius 1, by rejection: inside every blade, the first corner at the rotation's angle.
+glm::dvec2 sampleLens(const Camera& camera, RandomStream& random) {
+  const uint32_t blades = camera.apertureBlades;
+  while (true) {
+    const glm::dvec2 p = 2.0 * random.next2() - 1.0;
+    bool inside = glm::dot(p, p) <= 1;
+    for (uint32_t i = 0; blades >= 3 && i < blades; ++i) {
+      const double middle =
+          camera.apertureRotation + kPi * (2 * i + 1) / blades; // of the edge between corners i, i + 1
+      inside = inside && glm::dot(p, {std::cos(middle), std::sin(middle)}) <= std::cos(kPi / blades);
+    }
+    if (inside) return p;
+  }
+}
+
 /// Running mean and sum of squared deviations (Welford 1962).
 struct Welford {
   uint32_t count = 0;
@@ -176,7 +191,8 @@ ReferenceImage renderReference(const Scene& scene, const Camera& camera, uint32_
         Welford estimate;
         for (uint32_t sample = 0; sample < samplesPerPixel; ++sample) {
           const glm::dvec2 pixel = glm::dvec2(x, y) + random.next2();
-          estimate.add(tracer.trace(cameraRay(camera, width, height, pixel), random));
+          const glm::dvec2 lens = camera.hasLens() ? sampleLens(camera, random) : glm::dvec2(0);
+          estimate.add(tracer.trace(cameraRay(camera, width, height, pixel, lens), random));
         }
         image.pixels[size_t{y} * width + x] = {estimate.mean, estimate.standardError()};
       }

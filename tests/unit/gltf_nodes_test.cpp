@@ -188,6 +188,34 @@ TEST(GltfCameras, OrthographicIsRead) {
   EXPECT_TRUE(warns(scene, "negative magnification"));
 }
 
+TEST(GltfCameras, ExtrasGiveThemALensOrAPanorama) {
+  const auto cameraWith = [](Json extras) {
+    GltfAsset asset = withNodes({{{"camera", 0}}});
+    asset.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    asset.json["cameras"][0]["extras"] = std::move(extras);
+    return load(asset);
+  };
+  const Camera lens =
+      cameraWith({{"lensRadius", 0.02}, {"focusDistance", 3}, {"apertureBlades", 6}, {"apertureRotation", 0.5}})
+          .cameras.at(0);
+  EXPECT_TRUE(lens.hasLens());
+  EXPECT_EQ(lens.lensRadius, 0.02);
+  EXPECT_EQ(lens.focusDistance, 3);
+  EXPECT_EQ(lens.apertureBlades, 6u);
+  EXPECT_EQ(lens.apertureRotation, 0.5);
+  const Scene blurred = cameraWith({{"lensRadius", 0.02}}); // at what distance is it sharp?
+  EXPECT_FALSE(blurred.cameras.at(0).hasLens());
+  EXPECT_TRUE(warns(blurred, "no focusDistance"));
+  EXPECT_TRUE(warns(cameraWith({{"lensRadius", -1}}), "below 0"));
+  EXPECT_EQ(cameraWith({{"projection", "panorama"}}).cameras.at(0).kind, CameraKind::Panorama);
+  for (const Json& foreign : {Json("text"), Json(5), Json({{"projection", 3}, {"lensRadius", "f/2"}}), Json({1, 2})}) {
+    const Scene scene = cameraWith(foreign);
+    EXPECT_EQ(scene.cameras.at(0).kind, CameraKind::Perspective);
+    EXPECT_FALSE(scene.cameras.at(0).hasLens());
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+}
+
 TEST(GltfLights, AreReadAndPlaced) {
   GltfAsset asset = withNodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {1, 2, 3}}},
                                {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}},

@@ -91,6 +91,8 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   if (execution.specialize) {
     features = scene.features();
     if (camera.kind == CameraKind::Orthographic) features.add(Feature::kHasOrthographic);
+    if (camera.kind == CameraKind::Panorama) features.add(Feature::kHasPanorama);
+    if (camera.hasLens()) features.add(Feature::kHasThinLens);
   }
   if (kernels && features == kernelFeatures) return;
   const auto start = Clock::now();

@@ -53,6 +53,27 @@ void readOrthographic(Document& document, const Json& json, const std::string& p
   requireThat(document, camera.znear >= 0, pointer + "/znear", "a value of at least 0");
 }
 
+// What glTF has no words for; docs/cameras.md.
+void readCameraExtras(Document& document, const Json& json, const std::string& pointer, Camera& camera) {
+  const auto atLeastZero = [&](const char* name) {
+    const double value = extraNumber(json, name).value_or(0);
+    if (value < 0) document.warnings.add(fmt::format("a camera's {} below 0 counts as 0", name), pointer);
+    return std::max(value, 0.0);
+  };
+  camera.lensRadius = std::min(atLeastZero("lensRadius"), kMaxRadius);
+  camera.focusDistance = std::min(atLeastZero("focusDistance"), kMaxRadius);
+  camera.apertureBlades = static_cast<uint32_t>(std::min(atLeastZero("apertureBlades"), double{kMaxApertureBlades}));
+  camera.apertureRotation = std::remainder(extraNumber(json, "apertureRotation").value_or(0), glm::two_pi<double>());
+  if (camera.lensRadius > 0 && !(camera.focusDistance > 0)) {
+    document.warnings.add("a camera with a lensRadius but no focusDistance stays a pinhole", pointer);
+    camera.lensRadius = 0;
+  }
+  const Json* extras = member(json, "extras");
+  if (extras == nullptr || !extras->is_object() || extras->value("projection", Json()) != "panorama") return;
+  camera.kind = CameraKind::Panorama;
+  camera.aspectRatio = 2;
+}
+
 class LightReader {
 public:
   LightReader(Document& document, const Json& json, std::string pointer)
@@ -166,6 +187,7 @@ std::vector<Camera> readCameras(Document& document) {
     } else {
       readOrthographic(document, *projection, inner, camera);
     }
+    readCameraExtras(document, cameras[i], pointer, camera);
     result.push_back(std::move(camera));
   }
   return result;
