@@ -78,6 +78,11 @@ std::vector<SettingEntry> makeTable() {
               "points on sphere lights: by the solid angle they are seen under, or by area (noisier)"},
              estimator, &E::sphereLightSampling,
              {{"cone", SphereLightSampling::Cone}, {"area", SphereLightSampling::Area}}),
+      choice({"light-selection", "bvh, power, uniform", "bvh", "bvh",
+              "how one of many lights is chosen: by what it can do at the point (by power where lights are few), by "
+              "power, or all alike"},
+             estimator, &E::lightSelection,
+             {{"bvh", LightSelection::Bvh}, {"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}),
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
              estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
       choice(

@@ -10,7 +10,8 @@
 #include "light/light_sample.glsl"
 
 // What the path receives from the sphere light that its ray has hit. To the camera it is a black surface that shines.
-vec3 sphereLightEmission(const SceneRef scene, const RayState ray, const uint instance, inout PathState path) {
+vec3 sphereLightEmission(const SceneRef scene, const RayState ray, const uint instance, const uint slot,
+                         inout PathState path) {
   const uint light = InstanceRef(scene.view.instances).items[instance].firstEmitter;
   const PunctualLightRecord sphere =
       PunctualLightRef(scene.view.punctualLights).items[light - scene.view.emissiveTriangleCount];
@@ -22,8 +23,10 @@ vec3 sphereLightEmission(const SceneRef scene, const RayState ray, const uint in
     path.hit = 1u;
     addAovs(RenderRef(pc.render), path, vec3(0.0), normal, p);
   }
-  const float pdfLight =
-      path.pdfSolidAngle > 0.0 ? sphereLightHitPdf(scene, light, sphere, ray.origin, ray.direction) : 0.0;
+  float pdfLight = 0.0;
+  if (path.pdfSolidAngle > 0.0) {
+    pdfLight = sphereLightHitPdf(scene, light, sphere, ray.origin, ray.direction, receiverOf(slot, ray.origin));
+  }
   const vec3 Le = sphereLightRadiance(sphere, ray.origin, ray.direction);
   return path.beta * Le * emissionWeight(path.pdfSolidAngle, pdfLight);
 }
@@ -55,7 +58,7 @@ void main() {
   const uint instance = kHasSphereLights ? HitRef(pc.hits).items[slot].instance : kInvalidIndex;
   vec3 received = vec3(0.0);
   if (kHasSphereLights && instance != kInvalidIndex) {
-    received = sphereLightEmission(scene, ray, instance, path);
+    received = sphereLightEmission(scene, ray, instance, slot, path);
     paths.items[slot].hit = path.hit;
   } else {
     if (kHasSuns) received += sunEmission(scene, ray.direction, path);

@@ -3,10 +3,10 @@
 #ifndef ISOPHOTE_LIGHT_LIGHT_SAMPLE_GLSL
 #define ISOPHOTE_LIGHT_LIGHT_SAMPLE_GLSL
 
-#include "light/alias.glsl"
 #include "light/area_measure.glsl"
 #include "light/emission.glsl"
 #include "light/environment.glsl"
+#include "light/light_choice.glsl"
 #include "light/punctual.glsl"
 #include "light/sphere_light.glsl"
 #include "light/sun.glsl"
@@ -109,22 +109,22 @@ LightSample sampleEnvironmentLight(const SceneRef scene, float pmf, vec2 u) {
   return result;
 }
 
-/// Samples the light that arrives at p, visibility left open.
+/// Samples the light that arrives at a receiver, visibility left open.
 ///
-/// @param p           world, relative to the scene's origin
 /// @param choiceBits  which light
 /// @param u           where on it, multiples of 2^-24 in [0, 1)
-LightSample sampleLight(const SceneRef scene, vec3 p, uvec2 choiceBits, vec2 u) {
+LightSample sampleLight(const SceneRef scene, const LightReceiver receiver, uvec2 choiceBits, vec2 u) {
   if (scene.view.lightCount == 0u) return noLightSample();
-  const LightChoice choice = chooseLight(scene, choiceBits);
+  const LightChoice choice = chooseLight(scene, receiver, choiceBits);
+  if (choice.pmf <= 0.0) return noLightSample();
   const uint triangleCount = kHasEmissiveTriangles ? scene.view.emissiveTriangleCount : 0u;
   const bool hasPunctual = kHasPunctualLights || kHasSphereLights || kHasSuns;
   const uint punctualCount = hasPunctual ? scene.view.punctualLightCount : 0u;
   if (kHasEmissiveTriangles && choice.index < triangleCount) {
-    return sampleEmissiveTriangle(scene, choice.index, choice.pmf, p, u);
+    return sampleEmissiveTriangle(scene, choice.index, choice.pmf, receiver.p, u);
   }
   if (hasPunctual && choice.index < triangleCount + punctualCount) {
-    return samplePunctualLight(scene, choice.index - triangleCount, choice.pmf, p, u);
+    return samplePunctualLight(scene, choice.index - triangleCount, choice.pmf, receiver.p, u);
   }
   if (kHasEnvironment) return sampleEnvironmentLight(scene, choice.pmf, u);
   return noLightSample();
@@ -135,28 +135,38 @@ LightSample sampleLight(const SceneRef scene, vec3 p, uvec2 choiceBits, vec2 u) 
 /// @param surface   the hit; its flags hold kTriangleEmissive
 /// @param cosLight  |cosine| between the ray and the surface's normal
 /// @param distance  from the ray's origin to the hit
-float emitterPdfSolidAngle(const SceneRef scene, const SurfaceHit surface, float cosLight, float distance) {
+/// @param receiver  what sampleLight was given where the ray starts
+float emitterPdfSolidAngle(const SceneRef scene, const SurfaceHit surface, float cosLight, float distance,
+                           const LightReceiver receiver) {
   if (!kHasEmissiveTriangles || (surface.flags & kTriangleEmissive) == 0u) return 0.0;
   const uint firstEmitter = InstanceRef(scene.view.instances).items[surface.instance].firstEmitter;
   const uint firstEmissive = GeometryRef(scene.view.geometries).items[surface.geometry].firstEmissive;
-  const float pmf = lightPmf(scene, firstEmitter + firstEmissive + surface.primitiveIndex);
+  const float pmf = lightPmf(scene, receiver, firstEmitter + firstEmissive + surface.primitiveIndex);
   return pmf * areaToSolidAngle(surface.area, cosLight, distance);
 }
 
-/// Density per steradian with which sampleLight from p finds the sphere light `light`, a light index, in direction wi.
-float sphereLightHitPdf(const SceneRef scene, uint light, const PunctualLightRecord sphere, vec3 p, vec3 wi) {
-  return lightPmf(scene, light) * spherePdfSolidAngle(sphere.position, sphere.size, p, wi);
+/// Density per steradian with which sampleLight finds the point of sphere light `light`, a light index, that a ray has
+/// hit.
+///
+/// @param p, wi     the ray's origin and unit direction
+/// @param receiver  what sampleLight was given where the ray starts
+float sphereLightHitPdf(const SceneRef scene, uint light, const PunctualLightRecord sphere, vec3 p, vec3 wi,
+                        const LightReceiver receiver) {
+  return lightPmf(scene, receiver, light) * spherePdfSolidAngle(sphere.position, sphere.size, p, wi);
 }
+
+// Lights without a place have the same probability everywhere: any receiver will do.
+const LightReceiver kAnyReceiver = LightReceiver(vec3(0.0), vec3(0.0));
 
 /// Density per steradian with which sampleLight finds a direction on sun number `index`.
 float sunHitPdf(const SceneRef scene, uint index, const PunctualLightRecord sun) {
-  return lightPmf(scene, scene.view.emissiveTriangleCount + index) * pdfUniformCone(sun.size);
+  return lightPmf(scene, kAnyReceiver, scene.view.emissiveTriangleCount + index) * pdfUniformCone(sun.size);
 }
 
 /// Density per steradian with which sampleLight finds `direction` on the environment.
 float environmentHitPdf(const SceneRef scene, vec3 direction) {
   if (!kHasEnvironment) return 0.0;
-  const float pmf = lightPmf(scene, scene.view.emissiveTriangleCount + scene.view.punctualLightCount);
+  const float pmf = lightPmf(scene, kAnyReceiver, scene.view.emissiveTriangleCount + scene.view.punctualLightCount);
   return pmf > 0.0 ? pmf * environmentPdfSolidAngle(scene, direction) : 0.0;
 }
 

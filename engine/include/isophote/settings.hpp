@@ -11,6 +11,7 @@ namespace isophote {
 enum class SamplerKind : uint32_t { Sobol, Independent };
 enum class PixelFilter : uint32_t { Box, Gaussian, BlackmanHarris };
 enum class LightSampling : uint32_t { Mis, LightsOnly, BsdfOnly };
+enum class LightSelection : uint32_t { Uniform, Power, Bvh };
 /// Both see the whole sphere: uniformly in solid angle, or over its area as Monte Carlo textbooks begin.
 enum class SphereLightSampling : uint32_t { Cone, Area };
 enum class MisHeuristic : uint32_t { Balance, Power };
@@ -22,6 +23,7 @@ struct EstimatorSettings {
   SamplerKind sampler = SamplerKind::Sobol;
   PixelFilter filter = PixelFilter::BlackmanHarris;
   LightSampling lightSampling = LightSampling::Mis;
+  LightSelection lightSelection = LightSelection::Bvh; ///< Bvh: by power where the scene has few lights
   MisHeuristic misHeuristic = MisHeuristic::Power;
   SphereLightSampling sphereLightSampling = SphereLightSampling::Cone;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
