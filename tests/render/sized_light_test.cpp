@@ -1,5 +1,6 @@
 // Lights of KHR_lights_punctual with a radius: spheres and suns.
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -162,6 +163,22 @@ TEST(RenderSizedLight, SpheresAndASunMatchTheReferenceHoweverTheyAreSampled) {
     const Image image = renderImage(scene, camera, 32, 24, 512, {.estimator = settings});
     EXPECT_TRUE(sameImage(measured(image), reference, {.powerFloor = 0.02}));
   }
+}
+
+TEST(RenderSizedLight, ManySpheresChosenByTheLightTreeMatchTheReference) {
+  Scene scene = lambertFloor(glm::vec3(0.7f), 3);
+  addPrimitive(scene, quad({-2, 0, -1.8}, {4, 0, 0}, {0, 1.6, -0.8}, addMaterial(scene, metal(glm::vec3(0.9f), 0.3f))));
+  std::mt19937 generator(40);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 40; ++i) {
+    const glm::dvec3 position(4 * unit(generator) - 2, 1.5 * unit(generator), 3 * unit(generator) - 1.5);
+    scene.lights.push_back(sphereLight(position, 0.02 + 0.1 * unit(generator), 5 * unit(generator)));
+  }
+  ASSERT_TRUE(sceneFeatures(scene).has(Feature::kHasLightTree));
+  const Camera camera = sizedStillLifeCamera();
+  const Image image = renderImage(scene, camera, 24, 18, 512, {.estimator = {.filter = PixelFilter::Box}});
+  EXPECT_TRUE(
+      sameImage(measured(image), measured(oracle::renderReference(scene, camera, 24, 18, 512)), {.powerFloor = 0.02}));
 }
 
 TEST(RenderSizedLight, SpecializedKernelsGiveTheImageOfThoseWithAllFeatures) {
