@@ -11,13 +11,13 @@ from asset_maker.vectors import add, dot, normalize, scale, subtract
 
 EYE, TARGET = (0.0, 2.0, 15.0), (0.0, -2.0, 2.5)
 YFOV = math.radians(28)
-RADII = (0.033, 0.1, 0.3, 0.9)
+RADII = (0.1, 0.2, 0.45, 0.9)
 LIGHT_X = (-3.75, -1.25, 1.25, 3.75)
 INTENSITY = 10.0  # of each light: radiance falls with the square of the radius
-ROUGHNESS = (0.08, 0.16, 0.28, 0.45)
+ROUGHNESS = (0.14, 0.22, 0.32, 0.5)
 DROP_DEGREES = (14.0, 18.5, 23.0, 27.5)  # of each plate's middle below the horizon, seen from the eye
-PLATE_Z = (1.5, 3.0, 4.5, 6.0)
-HALF_HEIGHT_DEGREES = 1.9
+PLATE_Z = (1.2, 2.9, 4.9, 7.2)  # so that no plate hides the lights from the next
+HALF_HEIGHT_DEGREES = 1.3
 HALF_WIDTH = 4.2
 
 
