@@ -115,6 +115,7 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
   addCameraFlags(command, options.camera);
   addStopFlags(command, options);
   addEstimatorFlags(command, options);
+  addVariantFlag(command, options.variant);
   addEnvironmentFlags(command, options.environment);
   command
       .add_option("--device", options.device,

@@ -156,6 +156,7 @@ std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
                         {"aperture_blades", camera.apertureBlades}};
   }
   settings["environment"] = report.environment;
+  if (report.variant) settings["variant"] = *report.variant;
   return {{"isophote.version", kVersion},
           {"isophote.scene", report.scene},
           {"isophote.sceneHash", report.sceneHash},

@@ -35,13 +35,17 @@ struct CameraOptions {
 /// --camera, --lens-radius, --focus-distance, --aperture-blades, --panorama
 void addCameraFlags(CLI::App& command, CameraOptions& options);
 
+/// --variant
+void addVariantFlag(CLI::App& command, std::optional<std::string>& variant);
+
 struct LoadedScene {
   Scene scene;
   std::vector<std::filesystem::path> files; ///< all inputs, the asset first
 };
 
 /// @throws SceneError, UnsupportedError, LimitError, UsageError
-[[nodiscard]] LoadedScene loadScene(const std::string& file, const EnvironmentOptions& environment);
+[[nodiscard]] LoadedScene loadScene(const std::string& file, const EnvironmentOptions& environment,
+                                    const std::optional<std::string>& variant = std::nullopt);
 
 /// Whether anything in the scene gives light.
 [[nodiscard]] bool hasLight(const Scene& scene);
