@@ -147,7 +147,7 @@ int runBench(const BenchOptions& options) {
   Scene asset = loadScene(options.scene, options.environment, options.variant).scene;
   const bool whiteEnvironment = !hasLight(asset);
   if (whiteEnvironment) asset.environment = Environment{.width = 1, .height = 1, .pixels = {glm::vec3(1)}};
-  const View view = chooseView(asset, std::nullopt, kWidth, kHeight);
+  const View view = chooseView(asset, {}, kWidth, kHeight);
 
   const VulkanInstance instance;
   const Device device(instance, {.selector = options.device});

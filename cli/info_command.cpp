@@ -25,6 +25,18 @@ struct InfoOptions {
   bool json = false;
 };
 
+const char* kindName(CameraKind kind) {
+  switch (kind) {
+  case CameraKind::Perspective:
+    return "perspective";
+  case CameraKind::Orthographic:
+    return "orthographic";
+  case CameraKind::Panorama:
+    return "panorama";
+  }
+  return "";
+}
+
 const char* kindName(LightKind kind) {
   switch (kind) {
   case LightKind::Point:
@@ -63,8 +75,7 @@ Json contentJson(const Scene& scene, const SceneSummary& summary) {
 Json camerasJson(const Scene& scene) {
   Json list = Json::array();
   for (const Camera& camera : scene.cameras) {
-    const bool orthographic = camera.kind == CameraKind::Orthographic;
-    list.push_back({{"name", camera.name}, {"kind", orthographic ? "orthographic" : "perspective"}});
+    list.push_back({{"name", camera.name}, {"kind", kindName(camera.kind)}});
   }
   return list;
 }
@@ -125,8 +136,7 @@ void printText(const InfoOptions& options, const Scene& scene) {
   fmt::print("  {} meshes in {} instances, {} materials, {} textures of {} images\n", scene.meshes.size(),
              scene.instances.size(), scene.materials.size(), scene.textures.size(), scene.images.size());
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const bool orthographic = scene.cameras[i].kind == CameraKind::Orthographic;
-    fmt::print("  camera {} '{}', {}\n", i, scene.cameras[i].name, orthographic ? "orthographic" : "perspective");
+    fmt::print("  camera {} '{}', {}\n", i, scene.cameras[i].name, kindName(scene.cameras[i].kind));
   }
   for (const PunctualLight& light : scene.lights) fmt::print("  {} light '{}'\n", kindName(light.kind), light.name);
   for (const std::string& variant : gltfVariants(options.scene)) fmt::print("  variant '{}'\n", variant);

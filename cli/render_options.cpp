@@ -32,10 +32,6 @@ void addImageFlags(CLI::App& command, RenderOptions& options) {
       "Pixels (from the width and the camera's aspect)")
       ->group(kGroup);
   addValue(
-      command, "--camera", "NAME|INDEX", [&options](const std::string& text) { options.camera = text; },
-      "Camera of the asset (the first; one that frames the scene where there is none)")
-      ->group(kGroup);
-  addValue(
       command, "--crop", "X0,Y0,X1,Y1", [&options](const std::string& text) { options.crop = parseCrop(text); },
       "Render these pixels of the full image only; y runs down, X1 and Y1 are beyond the last")
       ->group(kGroup);
@@ -116,6 +112,7 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
       ->required()
       ->allow_extra_args(false);
   addImageFlags(command, options);
+  addCameraFlags(command, options.camera);
   addStopFlags(command, options);
   addEstimatorFlags(command, options);
   addVariantFlag(command, options.variant);

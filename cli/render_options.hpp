@@ -20,7 +20,7 @@ struct RenderOptions {
   std::string statsFile;
   std::optional<uint32_t> width;
   std::optional<uint32_t> height;
-  std::optional<std::string> camera;
+  CameraOptions camera;
   PixelRect crop;
   EnvironmentOptions environment;
   std::optional<std::string> variant;

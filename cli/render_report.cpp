@@ -150,6 +150,13 @@ std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
   Json settings = settingsJson(report.settings, false);
   settings["image"] = sizeJson(report);
   settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
+  const Camera& camera = report.view.camera;
+  if (camera.kind == CameraKind::Panorama) settings["panorama"] = true;
+  if (camera.hasLens()) {
+    settings["lens"] = {{"radius", camera.lensRadius},
+                        {"focus_distance", camera.focusDistance},
+                        {"aperture_blades", camera.apertureBlades}};
+  }
   settings["environment"] = report.environment;
   if (report.variant) settings["variant"] = *report.variant;
   return {{"isophote.version", kVersion},

@@ -18,6 +18,7 @@ namespace {
 constexpr uint32_t kDefaultWidth = 1280;
 constexpr double kDefaultAspectRatio = 16.0 / 9;
 constexpr double kLargestSide = 65535;
+constexpr double kLargestLength = 1e15; // scene units
 
 // The sun is one of the scene's lights; a factor on the environment is one on both.
 void setSky(Scene& scene, const EnvironmentOptions& options) {
@@ -39,6 +40,7 @@ void setEnvironment(Scene& scene, const EnvironmentOptions& options) {
 }
 
 double aspectRatio(const Camera& camera) {
+  if (camera.kind == CameraKind::Panorama) return 2;
   if (camera.kind == CameraKind::Orthographic) return camera.xmag / camera.ymag;
   return camera.aspectRatio.value_or(kDefaultAspectRatio);
 }
@@ -60,6 +62,15 @@ const Camera& findCamera(const Scene& scene, const std::string& name) {
     if (name == std::to_string(i)) return scene.cameras[i];
   }
   throw UsageError(fmt::format("--camera: no camera '{}'; {}", name, cameraList(scene)));
+}
+
+void change(Camera& camera, const CameraOptions& options) {
+  if (options.lensRadius) camera.lensRadius = *options.lensRadius;
+  if (options.focusDistance) camera.focusDistance = *options.focusDistance;
+  if (options.apertureBlades) camera.apertureBlades = *options.apertureBlades;
+  if (options.panorama) camera.kind = CameraKind::Panorama;
+  if (camera.lensRadius > 0 && !(camera.focusDistance > 0))
+    throw UsageError("--lens-radius needs a distance to focus at: --focus-distance");
 }
 
 uint32_t toSide(double pixels) {
@@ -106,6 +117,33 @@ void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options) {
       ->group(kGroup);
 }
 
+void addCameraFlags(CLI::App& command, CameraOptions& options) {
+  constexpr const char* kGroup = "Camera";
+  addValue(
+      command, "--camera", "NAME|INDEX", [&options](const std::string& text) { options.name = text; },
+      "Camera of the asset (the first; one that frames the scene where there is none)")
+      ->group(kGroup);
+  addValue(
+      command, "--lens-radius", "R",
+      [&options](const std::string& text) { options.lensRadius = parseNumber(text, 0, kLargestLength); },
+      "Thin lens of this radius in scene units: depth of field (0: a pinhole)")
+      ->group(kGroup);
+  addValue(
+      command, "--focus-distance", "D",
+      [&options](const std::string& text) { options.focusDistance = parseNumber(text, 1e-9, kLargestLength); },
+      "Distance of the plane in focus, along the view axis")
+      ->group(kGroup);
+  addValue(
+      command, "--aperture-blades", "N",
+      [&options](const std::string& text) {
+        options.apertureBlades = static_cast<uint32_t>(parseUnsigned(text, 0, kMaxApertureBlades));
+      },
+      "Straight blades, so that highlights out of focus are polygons (below 3: round)")
+      ->group(kGroup);
+  command.add_flag("--panorama", options.panorama, "All directions, equirectangular; width twice the height")
+      ->group(kGroup);
+}
+
 void addVariantFlag(CLI::App& command, std::optional<std::string>& variant) {
   command.add_option("--variant", variant, "Materials of the asset's variant of this name (its default materials)")
       ->type_name("NAME");
@@ -134,15 +172,19 @@ bool hasLight(const Scene& scene) {
   return features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasUnlit);
 }
 
-View chooseView(const Scene& scene, const std::optional<std::string>& name, std::optional<uint32_t> width,
+View chooseView(const Scene& scene, const CameraOptions& camera, std::optional<uint32_t> width,
                 std::optional<uint32_t> height) {
   View view;
-  view.framing = scene.cameras.empty() && !name;
-  if (!view.framing) view.camera = name ? findCamera(scene, *name) : scene.cameras.front();
-  const double aspect = view.framing ? kDefaultAspectRatio : aspectRatio(view.camera);
+  view.framing = scene.cameras.empty() && !camera.name;
+  if (!view.framing) view.camera = camera.name ? findCamera(scene, *camera.name) : scene.cameras.front();
+  change(view.camera, camera);
+  const double aspect = aspectRatio(view.camera);
   view.width = width.value_or(height ? toSide(*height * aspect) : kDefaultWidth);
   view.height = height.value_or(toSide(view.width / aspect));
-  if (view.framing) view.camera = framingCamera(scene, double(view.width) / view.height);
+  if (view.framing) {
+    view.camera = framingCamera(scene, double(view.width) / view.height);
+    change(view.camera, camera);
+  }
   return view;
 }
 

@@ -25,6 +25,18 @@ struct EnvironmentOptions {
 /// --env, --env-color, --sky, --env-intensity, --env-rotation
 void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options);
 
+/// What replaces the chosen camera's own values.
+struct CameraOptions {
+  std::optional<std::string> name; ///< or index
+  std::optional<double> lensRadius;
+  std::optional<double> focusDistance;
+  std::optional<uint32_t> apertureBlades;
+  bool panorama = false;
+};
+
+/// --camera, --lens-radius, --focus-distance, --aperture-blades, --panorama
+void addCameraFlags(CLI::App& command, CameraOptions& options);
+
 /// --variant
 void addVariantFlag(CLI::App& command, std::optional<std::string>& variant);
 
@@ -47,10 +59,10 @@ struct View {
   bool framing = false; ///< the asset has no camera
 };
 
-/// The camera called or numbered `name`, else the first, else one that frames the scene. A size not given follows from
-/// the other and from the camera's aspect ratio; neither given: 1280 wide.
-/// @throws UsageError naming the cameras there are, LimitError
-[[nodiscard]] View chooseView(const Scene& scene, const std::optional<std::string>& name, std::optional<uint32_t> width,
+/// The camera called or numbered as `camera` says, else the first, else one that frames the scene. A size not given
+/// follows from the other and from the camera's aspect ratio; neither given: 1280 wide.
+/// @throws UsageError naming the cameras there are, or for a lens without a distance to focus at; LimitError
+[[nodiscard]] View chooseView(const Scene& scene, const CameraOptions& camera, std::optional<uint32_t> width,
                               std::optional<uint32_t> height);
 
 } // namespace isophote::cli

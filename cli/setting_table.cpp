@@ -74,6 +74,10 @@ std::vector<SettingEntry> makeTable() {
               "next event estimation and BSDF sampling combined, or one alone"},
              estimator, &E::lightSampling,
              {{"mis", LightSampling::Mis}, {"lights", LightSampling::LightsOnly}, {"bsdf", LightSampling::BsdfOnly}}),
+      choice({"sphere-light-sampling", "cone, area", "cone", "cone",
+              "points on sphere lights: by the solid angle they are seen under, or by area (noisier)"},
+             estimator, &E::sphereLightSampling,
+             {{"cone", SphereLightSampling::Cone}, {"area", SphereLightSampling::Area}}),
       choice({"light-selection", "bvh, power, uniform", "bvh", "bvh",
               "how one of many lights is chosen: by what it can do at the point (by power where lights are few), by "
               "power, or all alike"},

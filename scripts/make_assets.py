@@ -6,7 +6,7 @@ usage: scripts/make_assets.py [FOLDER]   (assets/ of this checkout)
 import pathlib
 import sys
 
-from asset_maker import cornell_box, demo, material_grid, triangle
+from asset_maker import cornell_box, demo, material_grid, triangle, veach
 
 
 def main():
@@ -16,6 +16,7 @@ def main():
     triangle.scene().write_gltf(folder / "triangle.gltf")
     material_grid.scene().write_glb(folder / "material-grid.glb")
     demo.scene().write_glb(folder / "demo.glb")
+    veach.scene().write_gltf(folder / "veach-plates.gltf")
 
 
 if __name__ == "__main__":

@@ -106,10 +106,14 @@ class Gltf:
         entry["extensions"]["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
         return material
 
-    def point_light(self, name, position, intensity):
+    def point_light(self, name, position, intensity, radius=None):
+        """With a radius a sphere (docs/lights.md)."""
         self.extensions.add("KHR_lights_punctual")
         root = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})
-        root["lights"].append({"name": name, "type": "point", "color": [1.0, 1.0, 1.0], "intensity": intensity})
+        light = {"name": name, "type": "point", "color": [1.0, 1.0, 1.0], "intensity": intensity}
+        if radius is not None:
+            light["extras"] = {"radius": radius}
+        root["lights"].append(light)
         self._place({"name": name, "translation": list(position),
                      "extensions": {"KHR_lights_punctual": {"light": len(root["lights"]) - 1}}})
 

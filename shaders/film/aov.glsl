@@ -19,7 +19,9 @@ void addAovs(const RenderRef render, const PathState path, const vec3 albedo, co
     atomicAdd(aovs.items[pixel].normal[c], toFixedPoint(normal[c] * unit, dither));
     atomicAdd(aovs.items[pixel].position[c], toFixedPoint(p[c] * render.view.distanceScale, dither));
   }
-  const float depth = dot(p - render.view.camera.position, render.view.camera.forward);
+  const vec3 fromCamera = p - render.view.camera.position;
+  const bool panorama = kHasPanorama && render.view.camera.kind == kCameraPanorama;
+  const float depth = panorama ? length(fromCamera) : dot(fromCamera, render.view.camera.forward);
   atomicAdd(aovs.items[pixel].depth, toFixedPoint(depth * render.view.distanceScale, dither));
   atomicAdd(aovs.items[pixel].count, 1u);
 }

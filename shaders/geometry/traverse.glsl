@@ -5,12 +5,13 @@
 #include "geometry/alpha_test.glsl"
 #include "geometry/instance_map.glsl"
 #include "geometry/ray_box.glsl"
+#include "geometry/ray_sphere.glsl"
 #include "geometry/ray_triangle.glsl"
 
 struct RayHit {
   float t;           // in units of the direction's length
   uint instance;     // index into the InstanceRecord array
-  uint triangle;     // index into the BvhTriangle array
+  uint triangle;     // index into the BvhTriangle array; kInvalidIndex: a sphere light
   vec2 barycentrics; // weights of v1 and v2
   bool found;
   bool stackOverflow; // never, while the builder keeps to kMaxBvhDepth
@@ -43,10 +44,12 @@ float reachOf(const BvhNode root, const vec3 origin) {
 
 /// The body of traceClosest and traceOccluded. `anyHit` is a literal at both calls, so each keeps only its own half.
 ///
+/// @param ignored  instance of a sphere light that the ray does not see, or kInvalidIndex
+///
 /// One loop over nodes, instances and triangles. It ends: every turn either descends the tree, consumes a leaf item or
 /// takes an entry off the stack, and entries come from descending alone.
 RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, const float tMin, const float tMax,
-                const AlphaKey key, const bool anyHit) {
+                const AlphaKey key, const uint ignored, const bool anyHit) {
   RayHit best = RayHit(tMax, kInvalidIndex, kInvalidIndex, vec2(0.0), false, false);
   if (scene.view.instanceCount == 0u) return best;
   // Locals: the compiler of a CPU driver does not hoist loads out of the loop.
@@ -96,14 +99,24 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
           best.stackOverflow = true;
         }
       }
-      instance = index;
-      instanceFloor = stackSize;
-      const Affine objectFromWorld = objectFromWorldOf(instances, instance);
-      const vec3 objectOrigin = transformPoint(objectFromWorld, origin);
-      const vec3 objectDirection = transformVector(objectFromWorld, direction);
-      work = instances.items[instance].rootNode;
-      boxRay = makeBoxRay(objectOrigin, objectDirection, reachOf(nodes.items[work], objectOrigin));
-      triangleRay = makeTriangleRay(objectOrigin, objectDirection);
+      if (kHasSphereLights && (instances.items[index].flags & kInstanceSphere) != 0u) {
+        const vec4 sphere = instances.items[index].worldFromObject[0];
+        const SphereHit hit = intersectSphere(origin, direction, sphere.xyz, sphere.w, tMin);
+        if (hit.found && index != ignored && isCloser(hit.t, index, kInvalidIndex, best)) {
+          best = RayHit(hit.t, index, kInvalidIndex, vec2(0.0), true, best.stackOverflow);
+          if (anyHit) return best;
+        }
+        work = kNoWork;
+      } else {
+        instance = index;
+        instanceFloor = stackSize;
+        const Affine objectFromWorld = objectFromWorldOf(instances, instance);
+        const vec3 objectOrigin = transformPoint(objectFromWorld, origin);
+        const vec3 objectDirection = transformVector(objectFromWorld, direction);
+        work = instances.items[instance].rootNode;
+        boxRay = makeBoxRay(objectOrigin, objectDirection, reachOf(nodes.items[work], objectOrigin));
+        triangleRay = makeTriangleRay(objectOrigin, objectDirection);
+      }
     } else {
       const BvhTriangle triangle = triangles.items[index];
       const TriangleHit hit = intersectTriangle(triangleRay, triangle.v0, triangle.v1, triangle.v2);
@@ -143,15 +156,18 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
 /// @param direction  any length; t counts in units of it, in every instance
 /// @param tMin       >= 0
 /// @param tMax       kRayInfinity where nothing bounds the ray
+/// @param ignored    instance of a sphere light that the ray does not see, or kInvalidIndex
 RayHit traceClosest(const SceneRef scene, const vec3 origin, const vec3 direction, const float tMin, const float tMax,
-                    const AlphaKey key) {
-  return traverse(scene, origin, direction, tMin, tMax, key, false);
+                    const AlphaKey key, const uint ignored) {
+  return traverse(scene, origin, direction, tMin, tMax, key, ignored, false);
 }
 
 /// Whether any surface that the alpha test accepts has tMin <= t < tMax.
+///
+/// @param ignored  instance of the sphere light that the ray ends on, or kInvalidIndex
 bool traceOccluded(const SceneRef scene, const vec3 origin, const vec3 direction, const float tMin, const float tMax,
-                   const AlphaKey key, out bool stackOverflow) {
-  const RayHit hit = traverse(scene, origin, direction, tMin, tMax, key, true);
+                   const AlphaKey key, const uint ignored, out bool stackOverflow) {
+  const RayHit hit = traverse(scene, origin, direction, tMin, tMax, key, ignored, true);
   stackOverflow = hit.stackOverflow;
   return hit.found;
 }

@@ -20,10 +20,11 @@ vec3 shadowTransmittance(const SceneRef scene, const ShadowState shadow, MediumS
   const vec3 target = shadow.origin + shadow.direction; // of bounded rays, whose t runs to almost 1
   const bool bounded = shadow.tMax < kRayInfinity;
   for (uint i = 0u; i < kMostBoundaries; ++i) {
-    const RayHit hit = traceClosest(scene, origin, direction, 0.0, shadow.tMax, key);
+    const RayHit hit = traceClosest(scene, origin, direction, 0.0, shadow.tMax, key, shadow.target);
     stackOverflow = stackOverflow || hit.stackOverflow;
     const vec3 extinction = mediumOf(scene, currentMedium(scene, stack)).extinction;
     if (!hit.found) return bounded ? left * transmittance(extinction, length(direction)) : left;
+    if (kHasSphereLights && hit.triangle == kInvalidIndex) return vec3(0.0);
     const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, -direction);
     if (!isVolumeBoundary(scene, surface.material)) return vec3(0.0);
     const MediumCrossing crossing = crossBoundary(scene, stack, surface.material, surface.frontFace);
@@ -52,7 +53,7 @@ void main() {
     paths.items[slot].radiance +=
         shadow.contribution *
         shadowTransmittance(SceneRef(pc.scene), shadow, MediaRef(pc.media).items[slot].shadow, key, stackOverflow);
-  } else if (!traceOccluded(SceneRef(pc.scene), shadow.origin, shadow.direction, 0.0, shadow.tMax, key,
+  } else if (!traceOccluded(SceneRef(pc.scene), shadow.origin, shadow.direction, 0.0, shadow.tMax, key, shadow.target,
                             stackOverflow)) {
     paths.items[slot].radiance += shadow.contribution;
   }

@@ -38,7 +38,9 @@ void main() {
   const uvec2 pixel = render.view.cropOrigin + cropPixel;
   const SampleKey key = SampleKey(pixel.x | pixel.y << 16u, sampleIndex, render.view.seed);
   const vec2 offsetInPixel = sampleFilter(FloatRef(render.view.filterTable), sample2d(key, 0u));
-  const CameraRay ray = cameraRay(render.view.camera, vec2(pixel) + 0.5 + offsetInPixel, vec2(render.view.imageSize));
+  const vec2 uLens = kHasThinLens ? sample2d(key, 1u) : vec2(0.0);
+  const CameraRay ray =
+      cameraRay(render.view.camera, vec2(pixel) + 0.5 + offsetInPixel, vec2(render.view.imageSize), uLens);
 
   RayRef(pc.rays).items[slot] = RayState(ray.origin, ray.tMin, ray.direction, ray.tMax);
   PathRef(pc.paths).items[slot] = PathState(vec3(1.0), 0.0, vec3(0.0), 0u, key.pixel, sampleIndex, 0u);

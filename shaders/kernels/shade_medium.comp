@@ -24,6 +24,7 @@ vec3 scatteringPoint(const SceneRef scene, const uint slot, const RayState ray, 
   const vec3 size = max(abs(ray.origin), abs(p));
   if (hitDistance - distance > kCloseToSurface * max(size.x, max(size.y, size.z))) return p;
   const HitState hit = HitRef(pc.hits).items[slot];
+  if (kHasSphereLights && hit.triangle == kInvalidIndex) return p;
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, -ray.direction);
   const vec3 limit = offsetRayOrigin(surface.p, surface.pError, surface.ng, -ray.direction);
   return dot(p - limit, surface.ng) < 0.0 ? limit : p;
@@ -49,7 +50,7 @@ bool scatter(const SceneRef scene, const vec3 p, const vec3 wo, const float g, c
              inout PathState path) {
   if (path.depth >= RenderRef(pc.render).view.maxDepth) return false;
   const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
-  if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
+  if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
     sampleDirectLight(scene, p, wo, g, key, pair, slot, path.beta);
   }
   const vec3 wi = sampleHenyeyGreenstein(wo, g, sample2d(key, pair + 2u));
@@ -90,6 +91,8 @@ void main() {
     pushSlot(kQueueFinished, slot);
   } else if (found.scattered) {
     pushSlot(kQueueRay, slot);
+  } else if (kHasSphereLights && HitRef(pc.hits).items[slot].triangle == kInvalidIndex) {
+    pushSlot(kQueueEscaped, slot);
   } else {
     pushSlot(kQueueSurface, slot);
   }

@@ -8,6 +8,7 @@
 #include "film/aov.glsl"
 #include "geometry/ray_offset.glsl"
 #include "geometry/surface.glsl"
+#include "kernels/absorption.glsl"
 #include "kernels/mis.glsl"
 #include "kernels/shadow_ray.glsl"
 #include "kernels/vertex.glsl"
@@ -105,22 +106,10 @@ vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState r
   if (path.pdfSolidAngle > 0.0) {
     // Boundaries that do nothing may lie between the last scattering and the ray's origin.
     const float travelled = kHasVolumes ? MediaRef(pc.media).items[slot].travelled : 0.0;
-    LightReceiver receiver = LightReceiver(ray.origin, vec3(0.0));
-    if (keepsReceivers()) receiver = ReceiverRef(pc.receivers).items[slot];
     pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)),
-                                    distance(surface.p, ray.origin) + travelled, receiver);
+                                    distance(surface.p, ray.origin) + travelled, receiverOf(slot, ray.origin));
   }
   return Le * emissionWeight(path.pdfSolidAngle, pdfLight);
-}
-
-// What the medium between the ray's origin and the surface leaves of the throughput; sampling did that already where it
-// scatters.
-void absorbAlongRay(const SceneRef scene, const uint slot, inout PathState path) {
-  MediaRef media = MediaRef(pc.media);
-  const uint material = currentMedium(scene, media.items[slot].path);
-  if (material == kInvalidIndex) return;
-  const Medium medium = mediumOf(scene, material);
-  if (!scatters(medium)) path.beta *= transmittance(medium.extinction, media.items[slot].hitDistance);
 }
 
 // The media on the other side of the surface; where it bounds none, those on this side.
@@ -198,7 +187,7 @@ void main() {
       material.bsdf.coat.normalLocal = toLocal(frame, clearcoatNormal(scene, surface, wo));
     }
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
-    if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
+    if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
       // Lights on the far side of glass are sampled too.
       const LightReceiver receiver = LightReceiver(surface.p, transmits(material.bsdf) ? vec3(0.0) : ns);
       if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;

@@ -25,7 +25,7 @@ void queueShadowRay(const uint slot, const vec3 origin, const LightSample light,
     direction = target - origin; // not normalised: t runs from 0 to 1
     tMax = kBeforeLight;
   }
-  ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
+  ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, light.target, contribution);
   pushSlot(kQueueShadow, slot);
 }
 

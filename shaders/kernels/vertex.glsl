@@ -15,10 +15,8 @@ const uint kVertexPairs = 4u;
 const uint kRouletteDepth = 3u;
 const float kRouletteMaxSurvival = 0.999;
 
-const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
-
-// Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
-bool keepsReceivers() { return kHasLightTree && kHasEmissiveTriangles && pc.receivers != 0ul; }
+// Lights that a direction can find.
+const bool kHasSizedLights = kHasEmissiveTriangles || kHasSphereLights || kHasSuns || kHasEnvironment;
 
 /// Russian roulette after a scattering. False: the path ends; else its throughput makes up for those that did.
 ///

@@ -29,6 +29,16 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InteriorRef 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ReplicateRef { ReplicateSum items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { AovSum items[]; };
 
+// Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
+bool keepsReceivers() { return kHasLightTree && (kHasEmissiveTriangles || kHasSphereLights) && pc.receivers != 0ul; }
+
+// What light sampling was given where the path's ray starts.
+LightReceiver receiverOf(const uint slot, const vec3 rayOrigin) {
+  LightReceiver receiver = LightReceiver(rayOrigin, vec3(0.0));
+  if (keepsReceivers()) receiver = ReceiverRef(pc.receivers).items[slot];
+  return receiver;
+}
+
 void countStatus(const uint counter) { atomicAdd(WaveRef(pc.wave).state.status[counter], 1u); }
 
 QueueRef queueSlots(const uint queue) { return QueueRef(pc.queues + uint64_t(queue) * uint64_t(pc.capacity) * 4ul); }

@@ -1,13 +1,16 @@
 // One light, one point or direction on it, and the densities that multiple importance sampling needs.
-// Light indices run: emissive triangles, punctual lights, environment (shared/light_types.h).
+// Light indices run: emissive triangles, lights of KHR_lights_punctual, environment (shared/light_types.h).
 #ifndef ISOPHOTE_LIGHT_LIGHT_SAMPLE_GLSL
 #define ISOPHOTE_LIGHT_LIGHT_SAMPLE_GLSL
 
+#include "light/area_measure.glsl"
 #include "light/emission.glsl"
 #include "light/environment.glsl"
 #include "light/light_choice.glsl"
 #include "light/punctual.glsl"
+#include "light/sphere_light.glsl"
 #include "light/spherical_triangle.glsl"
+#include "light/sun.glsl"
 #include "sampling/warp.glsl"
 
 struct LightSample {
@@ -18,25 +21,16 @@ struct LightSample {
   float distance;      // kRayInfinity where atInfinity
   vec3 radiance;       // of delta lights the irradiance on a surface facing wi
   float pdfSolidAngle; // per steradian, choice of the light included; of delta lights the probability of the choice
+  uint target;         // instance that the shadow ray ends on and that does not block it: of a sphere light, else
+                       // kInvalidIndex
   bool delta;          // no other technique can find it
   bool atInfinity;
   bool valid; // false: nothing arrives, the other members are unspecified
 };
 
-// The smallest projected area, times distance 1, that a density is formed with; below it triangles count as seen
-// edge-on.
-const float kSmallestProjectedArea = 1e-37;
-
-/// Converts the density of points on a surface to directions.
-///
-/// @return per steradian; 0 where the surface is seen edge-on, in sampling and hit alike
-float areaToSolidAngle(float area, float cosLight, float distance) {
-  const float projected = area * cosLight;
-  return projected > kSmallestProjectedArea ? distance * (distance / projected) : 0.0;
-}
-
 LightSample noLightSample() {
-  return LightSample(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, false);
+  return LightSample(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0, kInvalidIndex, false, false,
+                     false);
 }
 
 const uint kTriangleBySolidAngle = 1u; // value of kTriangleLightSampling, as isophote::TriangleLightSampling
@@ -78,8 +72,38 @@ LightSample sampleEmissiveTriangle(const SceneRef scene, uint emitter, float pmf
   return result;
 }
 
-LightSample samplePunctualLight(const SceneRef scene, uint index, float pmf, vec3 p) {
+LightSample sampleSphereLight(const PunctualLightRecord light, float pmf, vec3 p, vec2 u) {
+  const SphereSample point = sampleSphere(light.position, light.size, p, u);
+  LightSample result = noLightSample();
+  result.point = light.position + light.size * point.normal;
+  // One rounding of the sum, and what the frame and the square root leave of the normal's precision.
+  result.pointError = kRoundingError * (abs(result.point) + 16.0 * light.size);
+  result.ngLight = point.normal;
+  result.wi = point.wi;
+  result.distance = point.distance;
+  result.radiance = sphereLightRadiance(light, p, point.wi);
+  result.pdfSolidAngle = pmf * point.pdfSolidAngle;
+  result.target = light.instance;
+  result.valid = result.pdfSolidAngle > 0.0 && any(greaterThan(result.radiance, vec3(0.0)));
+  return result;
+}
+
+LightSample sampleSunLight(const PunctualLightRecord sun, float pmf, vec2 u) {
+  LightSample result = noLightSample();
+  result.wi = sampleSun(sun, u);
+  result.distance = kRayInfinity;
+  result.radiance = sun.intensity;
+  result.pdfSolidAngle = pmf * pdfUniformCone(sun.size);
+  result.atInfinity = true;
+  result.valid = result.pdfSolidAngle > 0.0 && any(greaterThan(result.radiance, vec3(0.0)));
+  return result;
+}
+
+LightSample samplePunctualLight(const SceneRef scene, uint index, float pmf, vec3 p, vec2 u) {
   const PunctualLightRecord light = PunctualLightRef(scene.view.punctualLights).items[index];
+  if (isSphereLight(light)) return sampleSphereLight(light, pmf, p, u);
+  if (isSun(light)) return sampleSunLight(light, pmf, u);
+  if (!kHasPunctualLights) return noLightSample();
   const PunctualSample incident = punctualLightAt(light, p);
   LightSample result = noLightSample();
   result.point = light.position;
@@ -114,12 +138,13 @@ LightSample sampleLight(const SceneRef scene, const LightReceiver receiver, uvec
   const LightChoice choice = chooseLight(scene, receiver, choiceBits);
   if (choice.pmf <= 0.0) return noLightSample();
   const uint triangleCount = kHasEmissiveTriangles ? scene.view.emissiveTriangleCount : 0u;
-  const uint punctualCount = kHasPunctualLights ? scene.view.punctualLightCount : 0u;
+  const bool hasPunctual = kHasPunctualLights || kHasSphereLights || kHasSuns;
+  const uint punctualCount = hasPunctual ? scene.view.punctualLightCount : 0u;
   if (kHasEmissiveTriangles && choice.index < triangleCount) {
     return sampleEmissiveTriangle(scene, choice.index, choice.pmf, receiver.p, u);
   }
-  if (kHasPunctualLights && choice.index < triangleCount + punctualCount) {
-    return samplePunctualLight(scene, choice.index - triangleCount, choice.pmf, receiver.p);
+  if (hasPunctual && choice.index < triangleCount + punctualCount) {
+    return samplePunctualLight(scene, choice.index - triangleCount, choice.pmf, receiver.p, u);
   }
   if (kHasEnvironment) return sampleEnvironmentLight(scene, choice.pmf, u);
   return noLightSample();
@@ -144,12 +169,28 @@ float emitterPdfSolidAngle(const SceneRef scene, const SurfaceHit surface, float
   return pmf * areaToSolidAngle(surface.area, cosLight, distance);
 }
 
-/// Density per steradian with which sampleLight finds `direction` on the environment. Lights without a place have the
-/// same probability everywhere, so there is no receiver.
+/// Density per steradian with which sampleLight finds the point of sphere light `light`, a light index, that a ray has
+/// hit.
+///
+/// @param p, wi     the ray's origin and unit direction
+/// @param receiver  what sampleLight was given where the ray starts
+float sphereLightHitPdf(const SceneRef scene, uint light, const PunctualLightRecord sphere, vec3 p, vec3 wi,
+                        const LightReceiver receiver) {
+  return lightPmf(scene, receiver, light) * spherePdfSolidAngle(sphere.position, sphere.size, p, wi);
+}
+
+// Lights without a place have the same probability everywhere: any receiver will do.
+const LightReceiver kAnyReceiver = LightReceiver(vec3(0.0), vec3(0.0));
+
+/// Density per steradian with which sampleLight finds a direction on sun number `index`.
+float sunHitPdf(const SceneRef scene, uint index, const PunctualLightRecord sun) {
+  return lightPmf(scene, kAnyReceiver, scene.view.emissiveTriangleCount + index) * pdfUniformCone(sun.size);
+}
+
+/// Density per steradian with which sampleLight finds `direction` on the environment.
 float environmentHitPdf(const SceneRef scene, vec3 direction) {
   if (!kHasEnvironment) return 0.0;
-  const float pmf = lightPmf(scene, LightReceiver(vec3(0.0), vec3(0.0)),
-                             scene.view.emissiveTriangleCount + scene.view.punctualLightCount);
+  const float pmf = lightPmf(scene, kAnyReceiver, scene.view.emissiveTriangleCount + scene.view.punctualLightCount);
   return pmf > 0.0 ? pmf * environmentPdfSolidAngle(scene, direction) : 0.0;
 }
 

@@ -25,7 +25,7 @@ struct ReplicateSum {
 struct AovSum {
   Int64 albedo[3];
   Int64 normal[3];
-  Int64 depth;       // along the view axis
+  Int64 depth;       // along the view axis; of a panorama the distance
   Int64 position[3]; // relative to the scene's world origin
   uint count;
   uint unused; // keeps 64-bit members aligned in arrays

@@ -40,15 +40,18 @@ struct BvhTriangle {
 };
 
 // Rows of two affine 3x4 maps. World space is relative to SceneView.worldOrigin.
+// kInstanceSphere: a sphere light in world space; worldFromObject[0] is its center and radius, rootNode and mesh are
+// kInvalidIndex.
 struct InstanceRecord {
   vec4 worldFromObject[3];
   vec4 objectFromWorld[3];
   uint rootNode;
-  uint firstEmitter; // light index of this instance's first emissive triangle, or kInvalidIndex
+  uint firstEmitter; // light index of this instance's first emissive triangle, or of the sphere; or kInvalidIndex
   uint mesh;
-  uint flags; // kInstanceMirrored: the map turns winding over
+  uint flags;
 };
-ISOPHOTE_CONST uint kInstanceMirrored = 1u;
+ISOPHOTE_CONST uint kInstanceMirrored = 1u; // the map turns winding over
+ISOPHOTE_CONST uint kInstanceSphere = 2u;
 
 // One primitive of a mesh. Offsets count elements of the attribute arrays; kInvalidIndex: attribute absent.
 struct Geometry {

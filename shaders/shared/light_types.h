@@ -1,5 +1,5 @@
-// Lights as the device reads them. Light indices run: emissive triangles of every instance, punctual lights,
-// environment.
+// Lights as the device reads them. Light indices run: emissive triangles of every instance, lights of
+// KHR_lights_punctual (suns first), environment.
 #ifndef ISOPHOTE_SHARED_LIGHT_TYPES_H
 #define ISOPHOTE_SHARED_LIGHT_TYPES_H
 
@@ -47,14 +47,18 @@ ISOPHOTE_CONST uint kLightPoint = 0u;
 ISOPHOTE_CONST uint kLightSpot = 1u;
 ISOPHOTE_CONST uint kLightDirectional = 2u;
 
+// Without a size a light is a delta light. Point and spot lights with one are spheres, directional ones are disks at
+// infinity: suns.
 struct PunctualLightRecord {
   vec3 position; // relative to SceneView.worldOrigin
   uint kind;
   vec3 direction; // unit, the way the light travels
   float range;    // 0: unlimited
-  vec3 intensity;
+  vec3 intensity; // W/sr, of directional lights W/m^2; of lights with a size radiance
   float cosInner;
   float cosOuter;
+  float size;    // sphere: radius; sun: 1 - cos of its angular radius; 0: none
+  uint instance; // sphere: its InstanceRecord
 };
 
 // Piecewise-constant density over an equirectangular map of width x height texels, as cumulative sums in [0, 1]:

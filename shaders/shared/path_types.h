@@ -17,8 +17,8 @@ struct RayState {
 };
 
 struct HitState {
-  uint instance;
-  uint triangle;
+  uint instance; // kInvalidIndex: none (stored for escaped paths only where there are sphere lights)
+  uint triangle; // kInvalidIndex: a sphere light
   vec2 barycentrics;
 };
 
@@ -39,7 +39,7 @@ struct ShadowState {
   vec3 origin;
   float tMax;
   vec3 direction;
-  float unused;
+  uint target;       // sphere light that the ray ends on and that does not shade itself: its instance; or kInvalidIndex
   vec3 contribution; // complete: beta, BSDF, light, MIS weight and 1/pdf
 };
 

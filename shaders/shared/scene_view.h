@@ -31,7 +31,8 @@ struct SceneView {
   EnvironmentRecord environment;
   uint lightCount;
   uint emissiveTriangleCount;
-  uint punctualLightCount;
+  uint punctualLightCount; // suns included
+  uint sunCount;           // the first of them
   uint instanceCount;
   float lightTreeScale;
   float emitterScale; // PackedScene::emitterScale: the Film's fixed point follows it

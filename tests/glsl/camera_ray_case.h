@@ -10,6 +10,7 @@ struct CameraRayCase {
   CameraRecord camera;
   vec2 pixelPosition;
   vec2 imageSize;
+  vec2 uLens;
 };
 
 struct CameraRayResult {

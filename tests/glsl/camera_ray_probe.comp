@@ -7,6 +7,6 @@
 #include "support/probe_main.glsl"
 
 CameraRayResult probe(const CameraRayCase c) {
-  const CameraRay ray = cameraRay(c.camera, c.pixelPosition, c.imageSize);
+  const CameraRay ray = cameraRay(c.camera, c.pixelPosition, c.imageSize, c.uLens);
   return CameraRayResult(ray.origin, ray.tMin, ray.direction, ray.tMax);
 }

@@ -10,9 +10,9 @@
 TraversalResult probe(const TraversalCase c) {
   SceneRef scene = SceneRef(pc.extra);
   const AlphaKey key = AlphaKey(c.pixel, c.sampleIndex, uvec2(1u, 2u), c.vertex);
-  const RayHit hit = traceClosest(scene, c.origin, c.direction, c.tMin, c.tMax, key);
+  const RayHit hit = traceClosest(scene, c.origin, c.direction, c.tMin, c.tMax, key, kInvalidIndex);
   bool overflow;
-  const bool occluded = traceOccluded(scene, c.origin, c.direction, c.tMin, c.tMax, key, overflow);
+  const bool occluded = traceOccluded(scene, c.origin, c.direction, c.tMin, c.tMax, key, kInvalidIndex, overflow);
   TraversalResult result = TraversalResult(hit.t, hit.instance, hit.triangle, hit.barycentrics, hit.found ? 1u : 0u,
                                            occluded ? 1u : 0u, hit.stackOverflow || overflow ? 1u : 0u, 0u, 0u);
   if (hit.found) {

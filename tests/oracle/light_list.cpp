@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/sized_lights.hpp"
 #include "oracle/surface.hpp"
 
 namespace isophote::oracle {
@@ -44,7 +45,8 @@ glm::dvec3 punctualIrradiance(const PunctualLight& light, glm::dvec3 position) {
 }
 
 LightList::LightList(const Scene& scene, const std::vector<Triangle>& triangles, const EnvironmentMap* environment)
-    : scene_(&scene), triangles_(&triangles), environment_(environment), trianglePmf_(triangles.size(), 0.0) {
+    : scene_(&scene), triangles_(&triangles), environment_(environment), trianglePmf_(triangles.size(), 0.0),
+      lightPmf_(scene.lights.size(), 0.0) {
   std::vector<double> powers;
   const auto add = [&](Kind kind, size_t index, double power) {
     if (!(power > 0)) return;
@@ -72,6 +74,7 @@ LightList::LightList(const Scene& scene, const std::vector<Triangle>& triangles,
     entries_[i].pmf = powers[i] / total;
     cumulative_.push_back(sum += entries_[i].pmf);
     if (entries_[i].kind == Kind::Triangle) trianglePmf_[entries_[i].index] = entries_[i].pmf;
+    if (entries_[i].kind == Kind::Punctual) lightPmf_[entries_[i].index] = entries_[i].pmf;
     if (entries_[i].kind == Kind::Environment) environmentPmf_ = entries_[i].pmf;
   }
 }
@@ -82,6 +85,8 @@ LightSample LightList::sample(glm::dvec3 position, RandomStream& random) const {
   const auto chosen = std::min(static_cast<size_t>(found - cumulative_.begin()), entries_.size() - 1);
   const Entry& entry = entries_[chosen];
   if (entry.kind == Kind::Triangle) return sampleTriangle(entry.index, entry.pmf, position, random);
+  if (entry.kind == Kind::Punctual && scene_->lights[entry.index].radius > 0)
+    return sampleSized(entry.index, entry.pmf, position, random.next2());
   if (entry.kind == Kind::Punctual) return samplePunctual(scene_->lights[entry.index], entry.pmf, position);
   LightSample result;
   const double uTexel = random.next();
@@ -127,6 +132,30 @@ LightSample LightList::samplePunctual(const PunctualLight& light, double pmf, gl
     result.wi = offset / result.distance;
   }
   return result;
+}
+
+LightSample LightList::sampleSized(uint32_t index, double pmf, glm::dvec3 position, glm::dvec2 u) const {
+  const PunctualLight& light = scene_->lights[index];
+  const Cone cone = light.isSun() ? sunCone(light) : sphereCone(light, position);
+  LightSample result;
+  result.wi = cone.sample(u);
+  result.pdf = pmf * cone.pdf();
+  if (light.isSun()) {
+    result.radiance = sunRadiance(light);
+    return result;
+  }
+  // At the limb rounding may miss the sphere: it is as far as the tangent is long.
+  const double distance = glm::length(light.position - position);
+  result.distance = intersectSphere(light, {position, result.wi, 0, kInfinity, kNoTriangle, kNoTriangle});
+  if (result.distance == kInfinity) result.distance = std::sqrt(distance * distance - light.radius * light.radius);
+  result.radiance = sphereRadiance(light, position, result.wi);
+  result.sphere = index;
+  return result;
+}
+
+double LightList::pdfSized(uint32_t index, glm::dvec3 position) const {
+  const PunctualLight& light = scene_->lights[index];
+  return lightPmf_[index] * (light.isSun() ? sunCone(light) : sphereCone(light, position)).pdf();
 }
 
 double LightList::pdfTriangle(uint32_t triangle, double distance, glm::dvec3 wi) const {

@@ -13,6 +13,8 @@
 
 namespace isophote::oracle {
 
+inline constexpr uint32_t kNoLight = 0xffffffffu;
+
 struct LightSample {
   glm::dvec3 wi{0}; ///< unit, towards the light
   double distance = kInfinity;
@@ -20,6 +22,7 @@ struct LightSample {
   double pdf = 0;         ///< choice of the light included; per steradian, or a probability where `punctual`
   bool punctual = false;
   uint32_t triangle = kNoTriangle;
+  uint32_t sphere = kNoLight; ///< light of the scene
 };
 
 /// Radiometry of KHR_lights_punctual: the irradiance `light` puts on a surface at `position` that faces it, unoccluded.
@@ -37,6 +40,8 @@ public:
   /// `distance` along `wi`; 0 for triangles that are no lights.
   [[nodiscard]] double pdfTriangle(uint32_t triangle, double distance, glm::dvec3 wi) const;
   [[nodiscard]] double pdfEnvironment(glm::dvec3 wi) const;
+  /// The same for a light with a radius, number `light` of the scene, in a direction in which it is seen.
+  [[nodiscard]] double pdfSized(uint32_t light, glm::dvec3 position) const;
 
 private:
   enum class Kind { Triangle, Punctual, Environment };
@@ -48,6 +53,7 @@ private:
   [[nodiscard]] LightSample sampleTriangle(uint32_t triangle, double pmf, glm::dvec3 position,
                                            RandomStream& random) const;
   [[nodiscard]] LightSample samplePunctual(const PunctualLight& light, double pmf, glm::dvec3 position) const;
+  [[nodiscard]] LightSample sampleSized(uint32_t light, double pmf, glm::dvec3 position, glm::dvec2 u) const;
 
   const Scene* scene_;
   const std::vector<Triangle>* triangles_;
@@ -55,6 +61,7 @@ private:
   std::vector<Entry> entries_;
   std::vector<double> cumulative_;  ///< of the pmf, one per entry
   std::vector<double> trianglePmf_; ///< per triangle of the scene
+  std::vector<double> lightPmf_;    ///< per light of the scene
   double environmentPmf_ = 0;
 };
 

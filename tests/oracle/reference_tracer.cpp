@@ -12,6 +12,7 @@
 #include "oracle/random_stream.hpp"
 #include "oracle/reference_camera.hpp"
 #include "oracle/scattering.hpp"
+#include "oracle/sized_lights.hpp"
 #include "oracle/surface.hpp"
 #include "oracle/triangle_tree.hpp"
 
@@ -49,7 +50,17 @@ public:
     for (uint32_t depth = 0;; ++depth) {
       const glm::dvec3 wo = -ray.direction;
       const Hit hit = tree_.closest(ray, [&](const Hit& candidate) { return covers(candidate, random); });
+      const uint32_t sphere = closestSphere(ray, hit.t);
+      if (sphere != kNoLight) {
+        const glm::dvec3 Le = sphereRadiance(scene_.lights[sphere], ray.origin, -wo);
+        return radiance + beta * Le * hitWeight(last, lights_.pdfSized(sphere, ray.origin));
+      }
       if (hit.triangle == kNoTriangle) {
+        for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+          const PunctualLight& sun = scene_.lights[i];
+          if (!sun.isSun() || !sunCone(sun).contains(-wo)) continue;
+          radiance += beta * sunRadiance(sun) * hitWeight(last, lights_.pdfSized(i, ray.origin));
+        }
         if (environment_ != nullptr)
           radiance += beta * environment_->radiance(-wo) * hitWeight(last, lights_.pdfEnvironment(-wo));
         return radiance;
@@ -96,6 +107,29 @@ private:
     return coverage >= 1 || random.next() < coverage;
   }
 
+  /// The sphere light that the ray meets first, before `tMax`.
+  [[nodiscard]] uint32_t closestSphere(Ray ray, double tMax) const {
+    uint32_t closest = kNoLight;
+    ray.tMax = std::min(ray.tMax, tMax);
+    for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+      if (!scene_.lights[i].isSphere()) continue;
+      const double t = intersectSphere(scene_.lights[i], ray);
+      if (t == kInfinity) continue;
+      closest = i;
+      ray.tMax = t;
+    }
+    return closest;
+  }
+
+  /// Whether a sphere light other than `target` is in the way.
+  [[nodiscard]] bool behindSphere(const Ray& shadow, uint32_t target) const {
+    for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+      if (i != target && scene_.lights[i].isSphere() && intersectSphere(scene_.lights[i], shadow) != kInfinity)
+        return true;
+    }
+    return false;
+  }
+
   /// Balance-heuristic weight of meeting a light by the direction `last` whose light sample has density `lightPdf`.
   [[nodiscard]] double hitWeight(const ScatterSample& last, double lightPdf) const {
     if (last.delta || settings_.lightSampling == LightSampling::BsdfOnly || !(lightPdf > 0)) return 1;
@@ -111,6 +145,7 @@ private:
     const ScatterValue scattered = scattering.evaluate(light.wi);
     if (scattered.value == glm::dvec3(0)) return glm::dvec3(0);
     const Ray shadow{point.position, light.wi, offset_, light.distance - offset_, leaving, light.triangle};
+    if (behindSphere(shadow, light.sphere)) return glm::dvec3(0);
     if (tree_.occluded(shadow, [&](const Hit& candidate) { return covers(candidate, random); })) return glm::dvec3(0);
     const bool alone = light.punctual || settings_.lightSampling == LightSampling::LightsOnly;
     const double weight = alone ? 1 : light.pdf / (light.pdf + scattered.pdf);
@@ -124,6 +159,21 @@ private:
   LightList lights_;
   double offset_ = 0; ///< world units
 };
+
+/// Uniform on the aperture of radius 1, by rejection: inside every blade, the first corner at the rotation's angle.
+glm::dvec2 sampleLens(const Camera& camera, RandomStream& random) {
+  const uint32_t blades = camera.apertureBlades;
+  while (true) {
+    const glm::dvec2 p = 2.0 * random.next2() - 1.0;
+    bool inside = glm::dot(p, p) <= 1;
+    for (uint32_t i = 0; blades >= 3 && i < blades; ++i) {
+      const double middle =
+          camera.apertureRotation + kPi * (2 * i + 1) / blades; // of the edge between corners i, i + 1
+      inside = inside && glm::dot(p, {std::cos(middle), std::sin(middle)}) <= std::cos(kPi / blades);
+    }
+    if (inside) return p;
+  }
+}
 
 /// Running mean and sum of squared deviations (Welford 1962).
 struct Welford {
@@ -157,7 +207,8 @@ ReferenceImage renderReference(const Scene& scene, const Camera& camera, uint32_
         Welford estimate;
         for (uint32_t sample = 0; sample < samplesPerPixel; ++sample) {
           const glm::dvec2 pixel = glm::dvec2(x, y) + random.next2();
-          estimate.add(tracer.trace(cameraRay(camera, width, height, pixel), random));
+          const glm::dvec2 lens = camera.hasLens() ? sampleLens(camera, random) : glm::dvec2(0);
+          estimate.add(tracer.trace(cameraRay(camera, width, height, pixel, lens), random));
         }
         image.pixels[size_t{y} * width + x] = {estimate.mean, estimate.standardError()};
       }

@@ -27,7 +27,7 @@ TEST(CameraRecord, OrthographicKeepsYmag) {
   camera.xmag = 7;
   camera.ymag = 3;
   const auto record = cameraRecord(camera, 300, 200, glm::dvec3(0));
-  EXPECT_EQ(record.orthographic, 1u);
+  EXPECT_EQ(record.kind, gpu::kCameraOrthographic);
   EXPECT_FLOAT_EQ(glm::length(record.up), 3);
   EXPECT_FLOAT_EQ(glm::length(record.right), 4.5);
 }

@@ -154,6 +154,13 @@ TEST_F(CliUsage, EnvironmentFlagsNeedAnEnvironment) {
   EXPECT_EQ(result.exitCode, 2) << result.err;
 }
 
+TEST_F(CliUsage, ALensNeedsADistanceToFocusAt) {
+  const auto result =
+      run({"render", writeTriangle("triangle.gltf"), "-o", path("a.exr").string(), "--lens-radius", "0.1"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_NE(result.err.find("--focus-distance"), std::string::npos) << result.err;
+}
+
 TEST_F(CliUsage, ListsEverySettingWithItsDefault) {
   const auto result = run({"settings", "--json"});
   EXPECT_EQ(result.exitCode, 0);

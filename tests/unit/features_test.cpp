@@ -70,6 +70,12 @@ TEST(Features, EachThingInTheSceneAddsItsFeatureAlone) {
          s.materials[0].emissive = {0, 1, 0};
        }},
       {"punctual-lights", [](Scene& s) { s.lights.emplace_back(); }},
+      {"sphere-lights", [](Scene& s) { s.lights.emplace_back().radius = 1; }},
+      {"suns",
+       [](Scene& s) {
+         s.lights.emplace_back().radius = 0.01f;
+         s.lights[0].kind = LightKind::Directional;
+       }},
       {"environment", [](Scene& s) { s.environment.emplace(); }},
       {"specular", [](Scene& s) { s.materials[0].specular = 1; }},
       {"specular", [](Scene& s) { s.materials[0].metallic = 1; }},

@@ -188,6 +188,34 @@ TEST(GltfCameras, OrthographicIsRead) {
   EXPECT_TRUE(warns(scene, "negative magnification"));
 }
 
+TEST(GltfCameras, ExtrasGiveThemALensOrAPanorama) {
+  const auto cameraWith = [](Json extras) {
+    GltfAsset asset = withNodes({{{"camera", 0}}});
+    asset.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    asset.json["cameras"][0]["extras"] = std::move(extras);
+    return load(asset);
+  };
+  const Camera lens =
+      cameraWith({{"lensRadius", 0.02}, {"focusDistance", 3}, {"apertureBlades", 6}, {"apertureRotation", 0.5}})
+          .cameras.at(0);
+  EXPECT_TRUE(lens.hasLens());
+  EXPECT_EQ(lens.lensRadius, 0.02);
+  EXPECT_EQ(lens.focusDistance, 3);
+  EXPECT_EQ(lens.apertureBlades, 6u);
+  EXPECT_EQ(lens.apertureRotation, 0.5);
+  const Scene blurred = cameraWith({{"lensRadius", 0.02}}); // at what distance is it sharp?
+  EXPECT_FALSE(blurred.cameras.at(0).hasLens());
+  EXPECT_TRUE(warns(blurred, "no focusDistance"));
+  EXPECT_TRUE(warns(cameraWith({{"lensRadius", -1}}), "below 0"));
+  EXPECT_EQ(cameraWith({{"projection", "panorama"}}).cameras.at(0).kind, CameraKind::Panorama);
+  for (const Json& foreign : {Json("text"), Json(5), Json({{"projection", 3}, {"lensRadius", "f/2"}}), Json({1, 2})}) {
+    const Scene scene = cameraWith(foreign);
+    EXPECT_EQ(scene.cameras.at(0).kind, CameraKind::Perspective);
+    EXPECT_FALSE(scene.cameras.at(0).hasLens());
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+}
+
 TEST(GltfLights, AreReadAndPlaced) {
   GltfAsset asset = withNodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {1, 2, 3}}},
                                {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}},
@@ -214,6 +242,33 @@ TEST(GltfLights, AreReadAndPlaced) {
   EXPECT_EQ(scene.lights[2].intensity, glm::vec3(3));
   EXPECT_EQ(scene.lights[2].range, 0);
   expectNear(scene.lights[2].direction, {0, 0, -1});
+}
+
+TEST(GltfLights, ExtrasGiveThemASize) {
+  const auto lightWith = [](Json light) {
+    GltfAsset asset = withNodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {3, 3, 3}}}});
+    asset.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({std::move(light)});
+    return load(asset);
+  };
+  const auto withRadius = [&](const char* type, Json radius) {
+    return lightWith({{"type", type}, {"extras", {{"radius", std::move(radius)}}}});
+  };
+  EXPECT_EQ(withRadius("point", 0.25).lights.at(0).radius, 0.25f); // the node's scale does not touch it
+  EXPECT_TRUE(withRadius("spot", 2).lights.at(0).isSphere());
+  EXPECT_TRUE(withRadius("directional", 0.004).lights.at(0).isSun());
+  for (const Json& foreign : {Json("wide"), Json(nullptr), Json({1, 2})}) { // another program's extras
+    const Scene scene = withRadius("point", foreign);
+    EXPECT_EQ(scene.lights.at(0).radius, 0);
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+  EXPECT_EQ(lightWith({{"type", "point"}, {"extras", 7}}).lights.at(0).radius, 0);
+  const Scene negative = withRadius("point", -1);
+  EXPECT_EQ(negative.lights.at(0).radius, 0);
+  EXPECT_EQ(negative.warnings.size(), 1u);
+  EXPECT_LE(withRadius("directional", 3).lights.at(0).radius, 1.5707964f);
+  const Scene tiny = withRadius("point", 1e-20); // its radiance would leave the range of float
+  EXPECT_EQ(tiny.lights.at(0).radius, 0);
+  EXPECT_EQ(tiny.warnings.size(), 1u);
 }
 
 TEST(GltfLights, ValuesOutOfRangeAreClamped) {

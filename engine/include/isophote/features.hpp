@@ -39,7 +39,7 @@ private:
   uint32_t bits_ = 0;
 };
 
-/// The features `scene` can need, the camera's kind excepted (PathTracer adds it).
+/// The features `scene` can need, the camera's excepted (PathTracer adds it).
 [[nodiscard]] FeatureSet sceneFeatures(const Scene& scene);
 
 } // namespace isophote

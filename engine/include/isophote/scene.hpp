@@ -14,6 +14,7 @@ namespace isophote {
 
 inline constexpr int32_t kNone = -1;      ///< "no such thing" for signed indices below
 inline constexpr uint32_t kMaxUvSets = 4; ///< TEXCOORD_0 to TEXCOORD_3
+inline constexpr uint32_t kMaxApertureBlades = 64;
 
 enum class Wrap : uint32_t { Repeat, ClampToEdge, MirroredRepeat };
 enum class Filter : uint32_t { Linear, Nearest };
@@ -185,7 +186,10 @@ struct Instance {
 
 enum class LightKind : uint32_t { Point, Spot, Directional };
 
-/// KHR_lights_punctual. `intensity` is color * intensity: W/sr per channel, or W/m^2 for directional.
+/// KHR_lights_punctual, with a size beyond it. `intensity` is color * intensity: W/sr per channel, or W/m^2 for
+/// directional. With a radius, point and spot lights are opaque spheres of radiance intensity / (pi radius^2), by a
+/// spot's falloff in the direction of emission; directional lights are disks at infinity that put `intensity` on a
+/// surface facing their center.
 struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::Point;
@@ -193,21 +197,33 @@ struct PunctualLight {
   float range = 0;          ///< 0: unlimited
   float innerConeAngle = 0; ///< radians, spot only
   float outerConeAngle = 0.7853981634f;
+  float radius = 0; ///< 0: none; point, spot: world units; directional: radians, at most pi / 2
   glm::dvec3 position{0};
   glm::dvec3 direction{0, 0, -1}; ///< unit, the way the light travels
+
+  [[nodiscard]] bool isSphere() const { return radius > 0 && kind != LightKind::Directional; }
+  [[nodiscard]] bool isSun() const { return radius > 0 && kind == LightKind::Directional; }
 };
 
-enum class CameraKind : uint32_t { Perspective, Orthographic };
+enum class CameraKind : uint32_t { Perspective, Orthographic, Panorama };
 
+/// A panorama is equirectangular, as an environment map: the view axis in the middle, +y of the camera up. A camera
+/// with a lens, which a panorama has not, sees sharply what lies in the plane at focusDistance.
 struct Camera {
   std::string name;
   CameraKind kind = CameraKind::Perspective;
   double yfov = 0.7853981633974483;  ///< radians, perspective
   std::optional<double> aspectRatio; ///< perspective: width / height; absent: the image decides
   double xmag = 1, ymag = 1;         ///< half extents of the orthographic view, world units
-  double znear = 0;                  ///< geometry nearer along the view axis is not seen by the camera
+  double znear = 0;                  ///< geometry nearer along the view axis (panorama: the ray) is not seen
   double zfar = 0;                   ///< 0: unlimited
+  double lensRadius = 0;             ///< world units; 0: a pinhole, everything is in focus
+  double focusDistance = 0;          ///< along the view axis; > 0 where there is a lens
+  uint32_t apertureBlades = 0;       ///< straight blades, corners at lensRadius; below 3: a round aperture
+  double apertureRotation = 0;       ///< radians, counter-clockwise as the camera sees it; 0: a corner to the right
   glm::dmat4 worldFromCamera{1};     ///< rigid (scale removed); looks down -z, y up
+
+  [[nodiscard]] bool hasLens() const { return lensRadius > 0 && focusDistance > 0 && kind != CameraKind::Panorama; }
 };
 
 /// Equirectangular radiance map: row 0 is +y (up); columns run as u = 0.5 + atan2(d.x, -d.z) / 2pi.

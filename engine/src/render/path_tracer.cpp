@@ -87,7 +87,9 @@ struct PathTracer::Impl {
   }
   /// Whether the weight of emission that a path finds depends on where light was sampled before.
   [[nodiscard]] bool keepsReceivers() const {
-    return scene.features().has(Feature::kHasLightTree) && scene.features().has(Feature::kHasEmissiveTriangles) &&
+    const FeatureSet& features = scene.features();
+    return features.has(Feature::kHasLightTree) &&
+           (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights)) &&
            estimator.lightSelection == LightSelection::Bvh && estimator.lightSampling != LightSampling::BsdfOnly;
   }
   [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const;
@@ -99,6 +101,8 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   if (execution.specialize) {
     features = scene.features();
     if (camera.kind == CameraKind::Orthographic) features.add(Feature::kHasOrthographic);
+    if (camera.kind == CameraKind::Panorama) features.add(Feature::kHasPanorama);
+    if (camera.hasLens()) features.add(Feature::kHasThinLens);
   }
   if (kernels && features == kernelFeatures) return;
   const auto start = Clock::now();

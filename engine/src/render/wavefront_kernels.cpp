@@ -25,6 +25,7 @@ std::vector<gpu::SpecConstant> specialization(const FeatureSet& features, const 
   constants.push_back({kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
   constants.push_back({kTriangleLightSampling, static_cast<uint32_t>(settings.triangleLightSampling)});
   constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
+  constants.push_back({kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
   return constants;
 }
@@ -34,7 +35,14 @@ bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings
   if (settings.maxDepth == 0) return false;
   if (features.has(Feature::kHasPunctualLights)) return true;
   return settings.lightSampling != LightSampling::BsdfOnly &&
-         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasEnvironment));
+         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights) ||
+          features.has(Feature::kHasSuns) || features.has(Feature::kHasEnvironment));
+}
+
+// Whether a ray that met no surface can see anything.
+bool shinesBeyondSurfaces(const FeatureSet& features) {
+  return features.has(Feature::kHasEnvironment) || features.has(Feature::kHasSuns) ||
+         features.has(Feature::kHasSphereLights);
 }
 
 } // namespace
@@ -66,7 +74,7 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                            .intersectShadow = std::nullopt,
                            .accumulate = make("accumulate"),
                            .findCameraMedia = std::nullopt};
-  if (features.has(Feature::kHasEnvironment)) kernels.shadeEscaped = make("shade_escaped");
+  if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
   if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
   if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
   if (samplesLights(features, settings)) kernels.intersectShadow = make("intersect_shadow");

@@ -130,7 +130,11 @@ FeatureSet sceneFeatures(const Scene& scene) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (materialUsed[i]) addMaterial(scene, scene.materials[i], features);
   }
-  if (!scene.lights.empty()) features.add(Feature::kHasPunctualLights);
+  for (const PunctualLight& light : scene.lights) {
+    features.add(light.isSphere() ? Feature::kHasSphereLights
+                 : light.isSun()  ? Feature::kHasSuns
+                                  : Feature::kHasPunctualLights);
+  }
   if (placedLights(scene) > kFewLights) features.add(Feature::kHasLightTree);
   if (scene.environment) features.add(Feature::kHasEnvironment);
   return features;

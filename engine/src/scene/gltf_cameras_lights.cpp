@@ -13,6 +13,9 @@ namespace {
 
 /// Intensity above this is cut, so that its square is still finite in 32-bit floats.
 constexpr float kMaxIntensity = 1e18f;
+/// A light whose size would make its radiance larger stays without one.
+constexpr double kMaxRadiance = 1e30;
+constexpr double kMaxRadius = 1e15; // world units
 
 void requireThat(const Document& document, bool holds, const std::string& pointer, const char* expected) {
   if (!holds) document.fail(pointer, expected);
@@ -50,6 +53,27 @@ void readOrthographic(Document& document, const Json& json, const std::string& p
   requireThat(document, camera.znear >= 0, pointer + "/znear", "a value of at least 0");
 }
 
+// What glTF has no words for; docs/cameras.md.
+void readCameraExtras(Document& document, const Json& json, const std::string& pointer, Camera& camera) {
+  const auto atLeastZero = [&](const char* name) {
+    const double value = extraNumber(json, name).value_or(0);
+    if (value < 0) document.warnings.add(fmt::format("a camera's {} below 0 counts as 0", name), pointer);
+    return std::max(value, 0.0);
+  };
+  camera.lensRadius = std::min(atLeastZero("lensRadius"), kMaxRadius);
+  camera.focusDistance = std::min(atLeastZero("focusDistance"), kMaxRadius);
+  camera.apertureBlades = static_cast<uint32_t>(std::min(atLeastZero("apertureBlades"), double{kMaxApertureBlades}));
+  camera.apertureRotation = std::remainder(extraNumber(json, "apertureRotation").value_or(0), glm::two_pi<double>());
+  if (camera.lensRadius > 0 && !(camera.focusDistance > 0)) {
+    document.warnings.add("a camera with a lensRadius but no focusDistance stays a pinhole", pointer);
+    camera.lensRadius = 0;
+  }
+  const Json* extras = member(json, "extras");
+  if (extras == nullptr || !extras->is_object() || extras->value("projection", Json()) != "panorama") return;
+  camera.kind = CameraKind::Panorama;
+  camera.aspectRatio = 2;
+}
+
 class LightReader {
 public:
   LightReader(Document& document, const Json& json, std::string pointer)
@@ -63,6 +87,7 @@ public:
     light.intensity = color() * intensity;
     readRange(light);
     if (light.kind == LightKind::Spot) readCone(light);
+    readRadius(light);
     return light;
   }
 
@@ -110,8 +135,26 @@ private:
     light.innerConeAngle = clamped(*spot, "innerConeAngle", 0, 0, std::nextafter(light.outerConeAngle, 0.0f));
   }
 
+  void readRadius(PunctualLight& light) {
+    const std::optional<double> radius = extraNumber(json_, "radius");
+    if (!radius) return;
+    const bool sun = light.kind == LightKind::Directional;
+    light.radius = clamped("radius", *radius, 0, sun ? glm::half_pi<float>() : static_cast<float>(kMaxRadius));
+    const double extent = sun ? std::sin(double{light.radius}) : double{light.radius};
+    const glm::vec3 intensity = light.intensity;
+    const double brightest = std::max(intensity.x, std::max(intensity.y, intensity.z));
+    if (light.radius > 0 && !(brightest <= kMaxRadiance * extent * extent)) {
+      document_.warnings.add("a light's radius too small for its intensity counts as 0", pointer_);
+      light.radius = 0;
+    }
+  }
+
   float clamped(const Json& object, const char* name, float fallback, float lower, float upper) {
-    const float value = static_cast<float>(numberOr(object, name, fallback));
+    return clamped(name, numberOr(object, name, fallback), lower, upper);
+  }
+
+  float clamped(const char* name, double given, float lower, float upper) {
+    const float value = static_cast<float>(given);
     if (value < lower || value > upper) {
       document_.warnings.add(fmt::format("a light's {} is clamped to [{}, {}]", name, lower, upper), pointer_);
     }
@@ -144,6 +187,7 @@ std::vector<Camera> readCameras(Document& document) {
     } else {
       readOrthographic(document, *projection, inner, camera);
     }
+    readCameraExtras(document, cameras[i], pointer, camera);
     result.push_back(std::move(camera));
   }
   return result;

@@ -108,6 +108,14 @@ const Json& arrayOrEmpty(const Json& object, const char* name) {
   return found ? *found : kEmpty;
 }
 
+std::optional<double> extraNumber(const Json& object, const char* name) {
+  const Json* extras = member(object, "extras");
+  if (extras == nullptr || !extras->is_object()) return std::nullopt;
+  const Json* value = member(*extras, name);
+  if (value == nullptr || !value->is_number()) return std::nullopt;
+  return value->get<double>();
+}
+
 double numberOr(const Json& object, const char* name, double fallback) {
   const Json* found = member(object, name);
   return found ? found->get<double>() : fallback;

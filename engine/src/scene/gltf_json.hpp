@@ -28,6 +28,9 @@ inline constexpr uint32_t kMaxJsonDepth = 128;          ///< glTF itself nests t
 /// The array `name` of an object; an empty array where absent.
 [[nodiscard]] const Json& arrayOrEmpty(const Json& object, const char* name);
 
+/// extras.`name` where it is a number. Extras belong to whoever wrote them, so anything else counts as absent.
+[[nodiscard]] std::optional<double> extraNumber(const Json& object, const char* name);
+
 [[nodiscard]] double numberOr(const Json& object, const char* name, double fallback);
 [[nodiscard]] uint64_t integerOr(const Json& object, const char* name, uint64_t fallback);
 [[nodiscard]] bool boolOr(const Json& object, const char* name, bool fallback);

@@ -74,6 +74,7 @@ gpu::SceneView countsOf(const PackedScene& packed) {
   view.lightCount = static_cast<uint32_t>(packed.lightAlias.size());
   view.emissiveTriangleCount = static_cast<uint32_t>(packed.emissiveTriangles.size());
   view.punctualLightCount = static_cast<uint32_t>(packed.punctualLights.size());
+  view.sunCount = packed.sunCount;
   view.instanceCount = static_cast<uint32_t>(packed.instances.size());
   view.lightTreeScale = packed.lightTreeScale;
   view.emitterScale = packed.emitterScale;

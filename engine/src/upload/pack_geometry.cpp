@@ -161,7 +161,7 @@ void requireTriangleIndices(const Scene& scene, const std::vector<bool>& meshUse
   }
   // A binary tree over n leaves has n - 1 inner nodes, and the top level adds fewer than one per instance.
   requireFits(triangles, kMaxTraversalItems / 2, "triangles");
-  requireFits(scene.instances.size(), kMaxTraversalItems / 4, "instances");
+  requireFits(scene.instances.size() + scene.lights.size(), kMaxTraversalItems / 4, "instances and lights");
 }
 
 } // namespace

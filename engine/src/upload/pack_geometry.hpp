@@ -29,7 +29,8 @@ struct PackedMesh {
 
 struct PackedGeometry {
   std::vector<PackedMesh> meshes;       ///< as Scene::meshes
-  std::vector<uint32_t> sceneInstances; ///< per InstanceRecord: its index in Scene::instances
+  std::vector<uint32_t> sceneInstances; ///< per InstanceRecord: its index in Scene::instances; of a sphere light, in
+                                        ///< Scene::lights
 };
 
 /// Meshes that an instance refers to.

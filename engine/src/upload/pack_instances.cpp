@@ -59,6 +59,27 @@ Box worldBox(const Box& bounds, const gpu::InstanceRecord& record) {
   return box;
 }
 
+gpu::InstanceRecord sphereRecord(const PunctualLight& light, const glm::dvec3& worldOrigin) {
+  gpu::InstanceRecord record{};
+  record.worldFromObject[0] = glm::vec4(glm::vec3(light.position - worldOrigin), light.radius);
+  record.rootNode = gpu::kInvalidIndex;
+  record.firstEmitter = gpu::kInvalidIndex;
+  record.mesh = gpu::kInvalidIndex;
+  record.flags = gpu::kInstanceSphere;
+  return record;
+}
+
+Box sphereBox(const gpu::InstanceRecord& record) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const glm::vec4 sphere = record.worldFromObject[0];
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = std::nextafter(sphere[axis] - sphere.w, -kInfinity);
+    box.upper[axis] = std::nextafter(sphere[axis] + sphere.w, kInfinity);
+  }
+  return box;
+}
+
 } // namespace
 
 std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<PackedMesh>& meshes, PackedScene& packed) {
@@ -78,6 +99,12 @@ std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<Packed
     deepestMesh = std::max(deepestMesh, mesh.maxDepth);
     packed.bvh.instancedTriangles += mesh.triangleCount;
   }
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+    if (!scene.lights[i].isSphere()) continue;
+    records.push_back(sphereRecord(scene.lights[i], packed.worldOrigin));
+    boxes.push_back(sphereBox(records.back()));
+    sceneInstances.push_back(i);
+  }
   if (records.empty()) return {};
 
   // One instance a leaf: entering an instance costs more than a node.
@@ -87,10 +114,12 @@ std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<Packed
   packed.bvh.sahCost = top.sahCost;
   std::vector<uint32_t> order;
   for (const uint32_t item : top.order) {
-    const PackedMesh& mesh = meshes[records[item].mesh];
-    records[item].rootNode += static_cast<uint32_t>(top.nodes.size());
-    packed.instances.push_back(records[item]);
-    packed.bvh.sahCost += halfArea(boxes[item]) / halfArea(top.bounds) * mesh.sahCost;
+    gpu::InstanceRecord& record = records[item];
+    const bool isSphere = record.flags == gpu::kInstanceSphere;
+    if (!isSphere) record.rootNode += static_cast<uint32_t>(top.nodes.size());
+    packed.instances.push_back(record);
+    const double cost = isSphere ? 1 : meshes[record.mesh].sahCost;
+    packed.bvh.sahCost += halfArea(boxes[item]) / halfArea(top.bounds) * cost;
     order.push_back(sceneInstances[item]);
   }
   return order;

@@ -1,4 +1,4 @@
-// The top level: placed meshes and the BVH over them.
+// The top level: placed meshes, sphere lights, and the BVH over them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace isophote {
 
 /// Fills packed.instances in the leaf order of the top-level BVH, puts its nodes at the front of packed.nodes (which
 /// must be empty), and completes the BVH statistics. Instances of meshes without triangles are left out.
-/// @return per InstanceRecord: its index in scene.instances
+/// @return per InstanceRecord: its index in scene.instances; of a sphere light, in scene.lights
 [[nodiscard]] std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<PackedMesh>& meshes,
                                                   PackedScene& packed);
 

@@ -28,7 +28,7 @@ public:
 
   void pack() {
     addEmissiveTriangles();
-    for (const PunctualLight& light : scene_.lights) addPunctual(light);
+    addPunctualLights();
     if (scene_.environment) addEnvironment(*scene_.environment);
     addUnlit();
     packed_.lightAlias = buildAliasTable(powers());
@@ -61,8 +61,9 @@ private:
   void addEmissiveTriangles() {
     const std::vector<std::vector<double>> luminances = meshLuminances();
     uint64_t total = 0;
-    for (const gpu::InstanceRecord& instance : packed_.instances)
-      total += geometry_.meshes[instance.mesh].emitters.size();
+    for (const gpu::InstanceRecord& instance : packed_.instances) {
+      if (instance.flags != gpu::kInstanceSphere) total += geometry_.meshes[instance.mesh].emitters.size();
+    }
     if (total + scene_.lights.size() + 1 >= gpu::kInvalidIndex)
       throw LimitError("the scene has " + std::to_string(total) +
                        " emissive triangles, instances counted; light indices have 32 bits");
@@ -70,6 +71,7 @@ private:
     lights_.reserve(total + scene_.lights.size() + 1);
     for (uint32_t i = 0; i < packed_.instances.size(); ++i) {
       gpu::InstanceRecord& instance = packed_.instances[i];
+      if (instance.flags == gpu::kInstanceSphere) continue;
       const PackedMesh& mesh = geometry_.meshes[instance.mesh];
       if (mesh.emitters.empty()) continue;
       instance.firstEmitter = static_cast<uint32_t>(packed_.emissiveTriangles.size());
@@ -123,7 +125,19 @@ private:
     return bound;
   }
 
-  void addPunctual(const PunctualLight& light) {
+  void addPunctualLights() {
+    std::vector<uint32_t> instanceOf(scene_.lights.size(), gpu::kInvalidIndex);
+    for (uint32_t i = 0; i < packed_.instances.size(); ++i) {
+      if (packed_.instances[i].flags == gpu::kInstanceSphere) instanceOf[geometry_.sceneInstances[i]] = i;
+    }
+    for (const bool suns : {true, false}) {
+      for (size_t i = 0; i < scene_.lights.size(); ++i) {
+        if (scene_.lights[i].isSun() == suns) addPunctual(scene_.lights[i], instanceOf[i]);
+      }
+    }
+  }
+
+  void addPunctual(const PunctualLight& light, uint32_t instance) {
     gpu::PunctualLightRecord record{};
     record.position = glm::vec3(light.position - packed_.worldOrigin);
     record.kind = static_cast<uint32_t>(light.kind);
@@ -132,12 +146,20 @@ private:
     record.intensity = light.intensity;
     record.cosInner = static_cast<float>(std::cos(static_cast<double>(light.innerConeAngle)));
     record.cosOuter = static_cast<float>(std::cos(static_cast<double>(light.outerConeAngle)));
+    record.instance = instance;
+    if (light.radius > 0) setSize(light, record);
+    if (light.isSun()) ++packed_.sunCount;
+    if (light.isSphere())
+      packed_.instances[instance].firstEmitter =
+          static_cast<uint32_t>(packed_.emissiveTriangles.size() + packed_.punctualLights.size());
     packed_.punctualLights.push_back(record);
 
     const double squaredRadius = packed_.worldRadius * packed_.worldRadius;
     const double intensity = luminance(light.intensity);
     LightBound bound;
-    bound.lower = bound.upper = light.position - packed_.worldOrigin;
+    const glm::dvec3 reach(light.isSphere() ? double{light.radius} : 0.0);
+    bound.lower = light.position - packed_.worldOrigin - reach;
+    bound.upper = light.position - packed_.worldOrigin + reach;
     bound.intensity = intensity;
     switch (light.kind) {
     case LightKind::Point:
@@ -162,6 +184,18 @@ private:
     // Reflected radiance is about the irradiance; of a point light that at the distance of one scene radius.
     const double irradiance = largestComponent(light.intensity);
     largest_ = std::max(largest_, light.kind == LightKind::Directional ? irradiance : irradiance / squaredRadius);
+  }
+
+  // Radiance of a light with a size: the intensity over the sphere's cross section, or the irradiance over the disk's
+  // projected solid angle, pi sin^2.
+  void setSize(const PunctualLight& light, gpu::PunctualLightRecord& record) {
+    const double radius = light.radius;
+    const double half = std::sin(0.5 * radius);
+    const double extent = light.isSun() ? std::sin(radius) : radius;
+    const glm::dvec3 radiance = glm::dvec3(light.intensity) / (kPi * extent * extent);
+    record.size = static_cast<float>(light.isSun() ? 2 * half * half : radius);
+    record.intensity = glm::vec3(radiance);
+    largest_ = std::max(largest_, largestComponent(radiance));
   }
 
   void addEnvironment(const Environment& environment) {

@@ -52,7 +52,8 @@ struct PackedScene {
   std::vector<uint32_t> lightTrails;
   float lightTreeScale = 1;
   std::vector<gpu::EmissiveTriangle> emissiveTriangles;
-  std::vector<gpu::PunctualLightRecord> punctualLights;
+  std::vector<gpu::PunctualLightRecord> punctualLights; ///< suns first, otherwise as Scene::lights
+  uint32_t sunCount = 0;
   std::vector<glm::vec3> environmentPixels;
   std::vector<float> environmentMarginal;
   std::vector<float> environmentConditional;
