@@ -12,6 +12,7 @@ enum class SamplerKind : uint32_t { Sobol, Independent };
 enum class PixelFilter : uint32_t { Box, Gaussian, BlackmanHarris };
 enum class LightSampling : uint32_t { Mis, LightsOnly, BsdfOnly };
 enum class LightSelection : uint32_t { Uniform, Power, Bvh };
+enum class DirectionSampling : uint32_t { Lobes, Uniform, Cosine, Ndf, VisibleNormals, Mixture };
 enum class MisHeuristic : uint32_t { Balance, Power };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
@@ -22,6 +23,7 @@ struct EstimatorSettings {
   PixelFilter filter = PixelFilter::BlackmanHarris;
   LightSampling lightSampling = LightSampling::Mis;
   LightSelection lightSelection = LightSelection::Bvh; ///< Bvh: by power where the scene has few lights
+  DirectionSampling directionSampling = DirectionSampling::Lobes;
   MisHeuristic misHeuristic = MisHeuristic::Power;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;
