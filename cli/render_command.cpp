@@ -113,14 +113,14 @@ void writeImages(const RenderOptions& options, const Image& image, bool environm
     }
     // Alpha is coverage by geometry; where an environment shows, the picture is opaque all the same.
     if (!environment) {
-      writePng(file, image, options.exposureEv, options.toneMap);
+      writePng(file, image, options.exposureEv, options.toneMap, options.transfer);
       continue;
     }
     if (opaque.channels.empty()) {
       opaque = image;
       std::erase_if(opaque.channels, [](const Channel& channel) { return channel.name == "A"; });
     }
-    writePng(file, opaque, options.exposureEv, options.toneMap);
+    writePng(file, opaque, options.exposureEv, options.toneMap, options.transfer);
   }
 }
 

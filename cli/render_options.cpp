@@ -20,6 +20,12 @@ ToneMap toneMapFromName(const std::string& name) {
   throw UsageError("'" + name + "' is none of neutral, agx, aces, srgb, linear");
 }
 
+Transfer transferFromName(const std::string& name) {
+  if (name == "srgb") return Transfer::Srgb;
+  if (name == "gamma2.2") return Transfer::Gamma22;
+  throw UsageError("'" + name + "' is neither srgb nor gamma2.2");
+}
+
 void addImageFlags(CLI::App& command, RenderOptions& options) {
   constexpr const char* kGroup = "Image";
   const auto side = [](const std::string& text) { return static_cast<uint32_t>(parseUnsigned(text, 1, 65535)); };
@@ -43,6 +49,10 @@ void addImageFlags(CLI::App& command, RenderOptions& options) {
   addValue(
       command, "--tonemap", "NAME", [&options](const std::string& text) { options.toneMap = toneMapFromName(text); },
       "For PNG: neutral (Khronos PBR Neutral, default), agx, aces, srgb, linear")
+      ->group(kGroup);
+  addValue(
+      command, "--transfer", "NAME", [&options](const std::string& text) { options.transfer = transferFromName(text); },
+      "For PNG, how display values are encoded: srgb (default) or gamma2.2; no matter to agx and linear")
       ->group(kGroup);
 }
 

@@ -31,6 +31,7 @@ struct RenderOptions {
   Settings settings;
   float exposureEv = 0;
   ToneMap toneMap = ToneMap::Neutral;
+  Transfer transfer = Transfer::Srgb;
   std::string device;
   bool quiet = false;
   bool verbose = false;

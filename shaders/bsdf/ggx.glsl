@@ -7,6 +7,7 @@
 
 #include "math/constants.glsl"
 #include "math/trigonometry.glsl"
+#include "sampling/warp.glsl"
 
 // A direction closer to the horizon than this counts as below it: single precision cannot tell.
 const float kMinCosine = 1e-7;
@@ -49,6 +50,16 @@ float pdfVisibleNormal(const vec3 wo, const vec3 wm, const vec2 alpha) {
 /// Source: Heitz 2014, eq. 16 and 17: pdfVisibleNormal / (4 dot(wo, wm)).
 float pdfVisibleReflection(const vec3 wo, const vec3 wm, const vec2 alpha) {
   return 0.5 * ggxD(wm, alpha) / (wo.z + ggxProjectedLength(wo, alpha));
+}
+
+/// Samples microfacet normals proportionally to D cos, per steradian of wm, seen or not.
+///
+/// Of alpha = 1, D is 1 / pi; slopes scale with alpha (Heitz 2014, section 5.3).
+/// @param u in [0, 1)^2
+/// @return  unit, z > 0
+vec3 sampleGgxNormal(const vec2 alpha, const vec2 u) {
+  const vec3 round = sampleCosineHemisphere(u);
+  return normalize(vec3(alpha * round.xy, round.z));
 }
 
 /// Samples the normals that wo sees.

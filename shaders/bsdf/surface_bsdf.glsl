@@ -179,14 +179,18 @@ float pdfBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, 
   return evaluateBsdf(scene, bsdf, woLocal, wiLocal).pdfSolidAngle;
 }
 
-// The base's choice weighed anew: the layers dim it, and their lobes may have sampled it too.
-BsdfSample weighLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
-                        BsdfSample drawn) {
-  const BsdfValue value = evaluateLayered(scene, bsdf, at, woLocal, drawn.wiLocal);
+/// A continuous sample weighed by all that may have drawn its direction.
+BsdfSample weighed(BsdfSample drawn, const BsdfValue value) {
   drawn.pdfSolidAngle = value.pdfSolidAngle;
   drawn.weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
   drawn.valid = max(drawn.weight.x, max(drawn.weight.y, drawn.weight.z)) > 0.0;
   return drawn;
+}
+
+// The base's choice weighed anew: the layers dim it, and their lobes may have sampled it too.
+BsdfSample weighLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
+                        const BsdfSample drawn) {
+  return weighed(drawn, evaluateLayered(scene, bsdf, at, woLocal, drawn.wiLocal));
 }
 
 // One of three lobes, coat, sheen or base, by the probabilities in `at`.

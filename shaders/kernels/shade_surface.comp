@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "bsdf/direction_sampling.glsl"
 #include "bsdf/material.glsl"
 #include "bsdf/surface_bsdf.glsl"
 #include "film/aov.glsl"
@@ -32,7 +33,7 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
   if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
-  const BsdfValue bsdf = evaluateBsdf(scene, material.bsdf, woLocal, wiLocal);
+  const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
@@ -75,7 +76,7 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
                   const vec3 woLocal, const MediumCrossing crossing, const SampleKey key, const uint pair,
                   const uint slot, inout PathState path) {
   const vec2 choice = sample2d(key, pair + 3u);
-  const BsdfSample bsdf = sampleBsdf(scene, material.bsdf, woLocal, choice.x, sample2d(key, pair + 2u));
+  const BsdfSample bsdf = sampleDirection(scene, material.bsdf, woLocal, choice.x, sample2d(key, pair + 2u));
   if (!bsdf.valid) return false;
   const vec3 wi = toWorld(frame, bsdf.wiLocal);
   if (bsdf.wiLocal.z * dot(surface.ng, wi) <= 0.0) return false;

@@ -39,13 +39,18 @@ void writeExr(const std::filesystem::path& file, const Image& image);
 
 enum class ToneMap : uint32_t { Neutral, Agx, Aces, Srgb, Linear };
 
-/// Scene-linear Rec.709 to display-referred sRGB in [0, 1]. `color` is already exposed.
-[[nodiscard]] glm::vec3 toneMap(glm::vec3 color, ToneMap operation);
+/// How display values are encoded: the curve of sRGB (IEC 61966-2-1), or the power of 1 / 2.2 that approximates it.
+enum class Transfer : uint32_t { Srgb, Gamma22 };
+
+/// Scene-linear Rec.709 to display values in [0, 1]. `color` is already exposed. Agx is encoded by its own curve,
+/// Linear not at all.
+[[nodiscard]] glm::vec3 toneMap(glm::vec3 color, ToneMap operation, Transfer transfer = Transfer::Srgb);
 
 /// Writes R, G, B (and A where present) as 8-bit sRGB, tone-mapped after exposure by 2^exposureEv. Atomic like
 /// writeExr.
 /// @throws OutputError
-void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation);
+void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation,
+              Transfer transfer = Transfer::Srgb);
 
 /// Writes `bytes` under a temporary name in the same folder, syncs, and renames over `file`.
 /// @throws OutputError

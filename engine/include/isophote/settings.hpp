@@ -15,6 +15,7 @@ enum class LightSelection : uint32_t { Uniform, Power, Bvh };
 enum class TriangleLightSampling : uint32_t { Area, SolidAngle };
 /// Both see the whole sphere: uniformly in solid angle, or over its area as Monte Carlo textbooks begin.
 enum class SphereLightSampling : uint32_t { Cone, Area };
+enum class DirectionSampling : uint32_t { Lobes, Uniform, Cosine, Ndf, VisibleNormals, Mixture };
 enum class MisHeuristic : uint32_t { Balance, Power };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
@@ -26,6 +27,7 @@ struct EstimatorSettings {
   LightSampling lightSampling = LightSampling::Mis;
   LightSelection lightSelection = LightSelection::Bvh; ///< Bvh: by power where the scene has few lights
   TriangleLightSampling triangleLightSampling = TriangleLightSampling::Area;
+  DirectionSampling directionSampling = DirectionSampling::Lobes;
   MisHeuristic misHeuristic = MisHeuristic::Power;
   SphereLightSampling sphereLightSampling = SphereLightSampling::Cone;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly

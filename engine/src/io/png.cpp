@@ -24,7 +24,8 @@ const std::vector<float>& plane(const Image& image, const char* name) {
 
 } // namespace
 
-void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation) {
+void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation,
+              Transfer transfer) {
   const std::vector<float>& r = plane(image, "R");
   const std::vector<float>& g = plane(image, "G");
   const std::vector<float>& b = plane(image, "B");
@@ -48,7 +49,7 @@ void writePng(const std::filesystem::path& file, const Image& image, float expos
       if (coverage > 0) color /= coverage;
       bytes[i * components + 3] = toByte(coverage);
     }
-    const glm::vec3 display = toneMap(color * exposure, operation);
+    const glm::vec3 display = toneMap(color * exposure, operation, transfer);
     for (int c = 0; c < 3; ++c) bytes[i * components + static_cast<size_t>(c)] = toByte(display[c]);
   }
 

@@ -11,14 +11,15 @@ constexpr float kLargest = 1e15f;
 
 float usable(float value) { return std::isnan(value) ? 0.0f : std::min(std::max(value, 0.0f), kLargest); }
 
-float encodeSrgb(float linear) {
+float encode(float linear, Transfer transfer) {
+  if (transfer == Transfer::Gamma22) return std::pow(linear, 1.0f / 2.2f);
   // IEC 61966-2-1
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-glm::vec3 encodeSrgb(glm::vec3 linear) {
+glm::vec3 encode(glm::vec3 linear, Transfer transfer) {
   const glm::vec3 c = glm::clamp(linear, 0.0f, 1.0f);
-  return {encodeSrgb(c.r), encodeSrgb(c.g), encodeSrgb(c.b)};
+  return {encode(c.r, transfer), encode(c.g, transfer), encode(c.b, transfer)};
 }
 
 /// Khronos 2024, "Khronos PBR Neutral Tone Mapper" specification, sections 2 and 3. Linear to linear.
@@ -62,17 +63,17 @@ glm::vec3 aces(glm::vec3 x) { return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x
 
 } // namespace
 
-glm::vec3 toneMap(glm::vec3 color, ToneMap operation) {
+glm::vec3 toneMap(glm::vec3 color, ToneMap operation, Transfer transfer) {
   const glm::vec3 c(usable(color.r), usable(color.g), usable(color.b));
   switch (operation) {
   case ToneMap::Neutral:
-    return encodeSrgb(neutral(c));
+    return encode(neutral(c), transfer);
   case ToneMap::Agx:
     return glm::clamp(agx(c), 0.0f, 1.0f);
   case ToneMap::Aces:
-    return encodeSrgb(aces(c));
+    return encode(aces(c), transfer);
   case ToneMap::Srgb:
-    return encodeSrgb(c);
+    return encode(c, transfer);
   case ToneMap::Linear:
     return glm::clamp(c, 0.0f, 1.0f);
   }

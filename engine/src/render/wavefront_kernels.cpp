@@ -24,6 +24,7 @@ std::vector<gpu::SpecConstant> specialization(const FeatureSet& features, const 
   constants.push_back({kMultipleScattering, settings.multipleScattering ? 1u : 0u});
   constants.push_back({kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
   constants.push_back({kTriangleLightSampling, static_cast<uint32_t>(settings.triangleLightSampling)});
+  constants.push_back({kDirectionSampling, static_cast<uint32_t>(settings.directionSampling)});
   constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
   constants.push_back({kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
