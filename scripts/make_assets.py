@@ -6,7 +6,7 @@ usage: scripts/make_assets.py [FOLDER]   (assets/ of this checkout)
 import pathlib
 import sys
 
-from asset_maker import cornell_box, demo, material_grid, triangle
+from asset_maker import caustic, cornell_box, demo, many_lights, material_grid, open_air, triangle, veach
 
 
 def main():
@@ -16,6 +16,11 @@ def main():
     triangle.scene().write_gltf(folder / "triangle.gltf")
     material_grid.scene().write_glb(folder / "material-grid.glb")
     demo.scene().write_glb(folder / "demo.glb")
+    caustic.scene().write_glb(folder / "caustic.glb")
+    many_lights.scene().write_glb(folder / "many-lights.glb")
+    veach.scene().write_glb(folder / "veach.glb")
+    open_air.scene().write_glb(folder / "open-air.glb")
+    (folder / "sky.hdr").write_bytes(open_air.sky_hdr())
 
 
 if __name__ == "__main__":
