@@ -2,7 +2,7 @@
 #ifndef ISOPHOTE_BSDF_MATERIAL_GLSL
 #define ISOPHOTE_BSDF_MATERIAL_GLSL
 
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/surface_bsdf.glsl"
 #include "geometry/attributes.glsl"
 #include "geometry/surface.glsl"
 #include "geometry/texture_slot.glsl"
@@ -12,7 +12,7 @@
 #include "shared/constants.glsl"
 
 struct SurfaceMaterial {
-  MetallicRoughness bsdf;
+  SurfaceBsdf bsdf;
   vec3 baseColor; // linear, as authored: an unlit surface's radiance
   bool unlit;
 };
@@ -39,10 +39,10 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
     const float specular = record.specular * materialTexel(scene, surface, geometry, record.specularSlot).a;
     const vec3 specularColor =
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
-    material.bsdf = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g, record.ior,
-                                      specular, specularColor);
+    material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g,
+                                           record.ior, specular, specularColor);
   } else {
-    material.bsdf = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
+    material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }
   return material;
 }

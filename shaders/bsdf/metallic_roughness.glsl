@@ -1,4 +1,5 @@
-// The glTF 2.0 metallic-roughness model, made energy conserving and reciprocal. Formulas: docs/bsdf.md.
+// The base of a surface: the glTF 2.0 metallic-roughness model, made energy conserving and reciprocal. Formulas:
+// docs/bsdf.md.
 //
 // Directions are unit and in the local shading frame, z the shading normal on wo's side.
 #ifndef ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
@@ -79,7 +80,7 @@ float specularProbability(const MetallicRoughness m, const vec2 albedo) {
   return specular > 0.0 ? specular / (specular + diffuse) : 0.0;
 }
 
-// Given the table's albedo at wo and the lobe's probability, which sampleBsdf knows already.
+// Given the table's albedo at wo and the lobe's probability, which sampleBase knows already.
 BsdfValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const vec2 albedo, const float probability,
                         const vec3 woLocal, const vec3 wiLocal) {
   const float alpha = albedoAlpha(m);
@@ -103,7 +104,7 @@ BsdfValue evaluateLobes(const SceneRef scene, const MetallicRoughness m, const v
 
 /// Returns f |cos wi| and the sampling density of the continuous lobes; zeros unless both directions lie above the
 /// surface.
-BsdfValue evaluateBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
+BsdfValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
   if (min(woLocal.z, wiLocal.z) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
   if (kHasSpecular) {
     const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
@@ -111,16 +112,6 @@ BsdfValue evaluateBsdf(const SceneRef scene, const MetallicRoughness m, const ve
   }
   const float density = kInvPi * wiLocal.z;
   return BsdfValue(m.baseColor * ((1.0 - m.metallic) * density), density);
-}
-
-/// Returns f |cos wi| of the continuous lobes.
-vec3 evalBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
-  return evaluateBsdf(scene, m, woLocal, wiLocal).fCos;
-}
-
-/// Returns the density of sampleBsdf's continuous lobes, per steradian of wi, lobe probabilities included.
-float pdfBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
-  return evaluateBsdf(scene, m, woLocal, wiLocal).pdfSolidAngle;
 }
 
 BsdfSample finishSample(const vec3 wiLocal, const BsdfValue value) {
@@ -134,13 +125,13 @@ BsdfSample finishSample(const vec3 wiLocal, const BsdfValue value) {
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
-BsdfSample sampleBsdf(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const float uLobe,
+BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const float uLobe,
                       const vec2 u) {
   const BsdfSample absorbed = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false);
   if (woLocal.z < kMinCosine) return absorbed;
   if (!kHasSpecular) {
     const vec3 wi = sampleCosineHemisphere(u);
-    return finishSample(wi, evaluateBsdf(scene, m, woLocal, wi));
+    return finishSample(wi, evaluateBase(scene, m, woLocal, wi));
   }
   const vec2 albedo = ggxAlbedo(scene, woLocal.z, albedoAlpha(m));
   const float probability = specularProbability(m, albedo);

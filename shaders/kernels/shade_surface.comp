@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "bsdf/material.glsl"
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/surface_bsdf.glsl"
 #include "film/aov.glsl"
 #include "geometry/ray_offset.glsl"
 #include "geometry/surface.glsl"
@@ -27,11 +27,14 @@ const float kRouletteMaxSurvival = 0.999;
 
 const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
 
+// Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
+bool keepsReceivers() { return kHasLightTree && kHasEmissiveTriangles && pc.receivers != 0ul; }
+
 // A light's contribution at the surface, put up for the visibility test.
 void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
-                       const Frame frame, const vec3 woLocal, const SampleKey key, const uint pair, const uint slot,
-                       const vec3 beta) {
-  const LightSample light = sampleLight(scene, surface.p, sampleBits2d(key, pair + 1u), sample2d(key, pair));
+                       const Frame frame, const vec3 woLocal, const LightReceiver receiver, const SampleKey key,
+                       const uint pair, const uint slot, const vec3 beta) {
+  const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
   if (wiLocal.z <= 0.0 || dot(surface.ng, light.wi) <= 0.0) return;
@@ -81,14 +84,17 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
 }
 
 // Radiance that the surface itself sends towards wo, weighted against light sampling.
-vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState ray, const PathState path) {
+vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState ray, const PathState path,
+                const uint slot) {
   if (!kHasEmissiveTriangles) return vec3(0.0);
   const vec3 Le = emittedRadiance(scene, surface);
   if (all(equal(Le, vec3(0.0)))) return vec3(0.0);
   float pdfLight = 0.0;
   if (path.pdfSolidAngle > 0.0) {
-    pdfLight =
-        emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)), distance(surface.p, ray.origin));
+    LightReceiver receiver = LightReceiver(ray.origin, vec3(0.0));
+    if (keepsReceivers()) receiver = ReceiverRef(pc.receivers).items[slot];
+    pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)),
+                                    distance(surface.p, ray.origin), receiver);
   }
   return Le * emissionWeight(path.pdfSolidAngle, pdfLight);
 }
@@ -115,7 +121,7 @@ void main() {
     path.radiance += path.beta * material.baseColor;
     alive = false;
   } else {
-    path.radiance += path.beta * emissionAt(scene, surface, ray, path);
+    path.radiance += path.beta * emissionAt(scene, surface, ray, path, slot);
   }
   if (alive) {
     const Frame frame = frameFromNormal(ns);
@@ -123,7 +129,9 @@ void main() {
     const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
-      sampleDirectLight(scene, surface, material, frame, woLocal, key, pair, slot, path.beta);
+      const LightReceiver receiver = LightReceiver(surface.p, ns);
+      if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
+      sampleDirectLight(scene, surface, material, frame, woLocal, receiver, key, pair, slot, path.beta);
     }
     alive = continuePath(scene, surface, material, frame, woLocal, key, pair, slot, path);
   }

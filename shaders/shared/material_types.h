@@ -21,7 +21,8 @@ ISOPHOTE_CONST uint kAlphaBlend = 2u;
 ISOPHOTE_CONST uint kMaterialDoubleSided = 1u;
 ISOPHOTE_CONST uint kMaterialUnlit = 2u;
 
-// Texture members index the TextureSlot array, kInvalidIndex: none.
+// Texture members (…Slot) index the TextureSlot array, kInvalidIndex: none. Members are read one by one: those of a
+// feature that the scene lacks cost memory only.
 struct MaterialRecord {
   vec4 baseColor;
   vec3 emissive;
@@ -30,15 +31,46 @@ struct MaterialRecord {
   float roughness;
   float specular;
   float ior;
+  float dispersion;
   float alphaCutoff;
   uint alphaMode;
   uint flags;
+  float clearcoat;
+  float clearcoatRoughness;
+  vec3 sheenColor;
+  float sheenRoughness;
+  float anisotropyStrength;
+  float anisotropyRotation;
+  float iridescence;
+  float iridescenceIor;
+  float iridescenceThicknessMinimum; // nm
+  float iridescenceThicknessMaximum;
+  float transmission;
+  float diffuseTransmission;
+  vec3 diffuseTransmissionColor;
+  float thickness; // 0: thin-walled
+  vec3 attenuationColor;
+  float attenuationDistance; // 0: infinite
+  vec3 multiscatterColor;
+  float scatterAnisotropy;
   uint baseColorSlot;
   uint metallicRoughnessSlot;
   uint normalSlot;
   uint emissiveSlot;
   uint specularSlot;
   uint specularColorSlot;
+  uint clearcoatSlot;
+  uint clearcoatRoughnessSlot;
+  uint clearcoatNormalSlot;
+  uint sheenColorSlot;
+  uint sheenRoughnessSlot;
+  uint anisotropySlot;
+  uint iridescenceSlot;
+  uint iridescenceThicknessSlot;
+  uint transmissionSlot;
+  uint diffuseTransmissionSlot;
+  uint diffuseTransmissionColorSlot;
+  uint thicknessSlot;
 };
 
 ISOPHOTE_SHARED_END

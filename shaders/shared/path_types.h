@@ -5,6 +5,7 @@
 #include "camera_types.h"
 #include "film_types.h"
 #include "glsl_compat.h"
+#include "light_types.h"
 
 ISOPHOTE_SHARED_BEGIN
 
@@ -124,6 +125,7 @@ struct KernelArgs {
   Address hits;
   Address paths;
   Address shadows;
+  Address receivers; // LightReceiver that sampled a light last, for the weight of what its BSDF ray finds; 0: not kept
   uint capacity;
   uint activeLimit; // paths in flight, 0: no new path starts
   uint prepare;     // kPrepare*

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/surface_bsdf.glsl"
 #include "glsl/bsdf_case.h"
 #define PROBE_INPUT BsdfCase
 #define PROBE_OUTPUT BsdfResult
@@ -8,8 +8,8 @@
 
 BsdfResult probe(const BsdfCase c) {
   SceneRef scene = SceneRef(pc.extra);
-  const MetallicRoughness m =
-      metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
+  SurfaceBsdf m;
+  m.base = metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
   BsdfResult result;
   result.fCos = evalBsdf(scene, m, c.wo, c.wi);
   result.pdf = pdfBsdf(scene, m, c.wo, c.wi);

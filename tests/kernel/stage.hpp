@@ -23,7 +23,7 @@ public:
   static constexpr uint32_t kWorkgroup = 64;
 
   Stage(const Scene& scene, uint32_t capacity, const FilmOptions& filmOptions = {.width = 4, .height = 4})
-      : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions), pool(gpuDevice(), capacity, true),
+      : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions), pool(gpuDevice(), capacity, true, true),
         kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)), rays(capacity),
         hits(capacity), paths(capacity), shadows(capacity) {
     for (auto& queue : queues) queue.resize(capacity);

@@ -28,8 +28,10 @@ struct HostStruct {
 };
 
 // LISTED(f, S, a, b, ...) is f(S, a) f(S, b) ...: C++20's __VA_OPT__ recursion (David Mazieres, 2021, "Recursive macros
-// with C++20 __VA_OPT__"). Each EXPAND level doubles the scans: 2^5 members at most.
-#define EXPAND(...) EXPAND4(EXPAND4(__VA_ARGS__))
+// with C++20 __VA_OPT__"). Each EXPAND level doubles the scans: 2^7 members at most.
+#define EXPAND(...) EXPAND6(EXPAND6(__VA_ARGS__))
+#define EXPAND6(...) EXPAND5(EXPAND5(__VA_ARGS__))
+#define EXPAND5(...) EXPAND4(EXPAND4(__VA_ARGS__))
 #define EXPAND4(...) EXPAND3(EXPAND3(__VA_ARGS__))
 #define EXPAND3(...) EXPAND2(EXPAND2(__VA_ARGS__))
 #define EXPAND2(...) EXPAND1(EXPAND1(__VA_ARGS__))

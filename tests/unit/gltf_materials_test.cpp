@@ -22,7 +22,7 @@ Scene loadMaterial(const Json& material) {
 GltfAsset assetWithTextures(const Json& material) {
   GltfAsset asset = texturedTriangleAsset();
   asset.material() = material;
-  for (uint8_t i = 0; i < 6; ++i) asset.add("textures", {{"source", asset.addImage(pngPixel(i, 0, 0, 255))}});
+  for (uint8_t i = 0; i < 18; ++i) asset.add("textures", {{"source", asset.addImage(pngPixel(i, 0, 0, 255))}});
   return asset;
 }
 
@@ -98,6 +98,78 @@ TEST(GltfMaterials, EveryTextureGoesToItsPlace) {
   EXPECT_EQ(redOf(scene, m.specularColorTexture), 5);
   EXPECT_EQ(m.normalTexture.scale, 0.5f);
   EXPECT_EQ(m.baseColorTexture.scale, 1.0f);
+}
+
+TEST(GltfMaterials, ExtensionFactorsAreRead) {
+  const Scene scene = loadMaterial(
+      {{"extensions",
+        {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}}},
+         {"KHR_materials_sheen", {{"sheenColorFactor", {0.1, 0.2, 0.3}}, {"sheenRoughnessFactor", 0.75}}},
+         {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}, {"anisotropyRotation", 7}}},
+         {"KHR_materials_iridescence",
+          {{"iridescenceFactor", 0.8},
+           {"iridescenceIor", 1.8},
+           {"iridescenceThicknessMinimum", 10},
+           {"iridescenceThicknessMaximum", 5}}},
+         {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
+         {"KHR_materials_diffuse_transmission",
+          {{"diffuseTransmissionFactor", 0.35}, {"diffuseTransmissionColorFactor", {1, 0.5, 0}}}},
+         {"KHR_materials_volume",
+          {{"thicknessFactor", 2}, {"attenuationDistance", 3}, {"attenuationColor", {0.5, 1, 0}}}},
+         {"KHR_materials_volume_scatter", {{"multiscatterColor", {0.5, 0.25, 1}}, {"scatterAnisotropy", -0.5}}},
+         {"KHR_materials_dispersion", {{"dispersion", 0.1}}}}}});
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(m.clearcoat.factor, 0.5f);
+  EXPECT_EQ(m.clearcoat.roughness, 0.25f);
+  EXPECT_EQ(m.sheen.color, glm::vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(m.sheen.roughness, 0.75f);
+  EXPECT_EQ(m.anisotropy.strength, 0.6f);
+  EXPECT_EQ(m.anisotropy.rotation, 7);
+  EXPECT_EQ(m.iridescence.factor, 0.8f);
+  EXPECT_EQ(m.iridescence.ior, 1.8f);
+  EXPECT_EQ(m.iridescence.thicknessMinimum, 10);
+  EXPECT_EQ(m.iridescence.thicknessMaximum, 5) << "the extension allows a minimum above the maximum";
+  EXPECT_EQ(m.transmission.factor, 0.9f);
+  EXPECT_EQ(m.diffuseTransmission.factor, 0.35f);
+  EXPECT_EQ(m.diffuseTransmission.color, glm::vec3(1, 0.5f, 0));
+  EXPECT_EQ(m.volume.thickness, 2);
+  EXPECT_EQ(m.volume.attenuationDistance, 3);
+  EXPECT_EQ(m.volume.attenuationColor, glm::vec3(0.5f, 1, 0));
+  EXPECT_EQ(m.volume.multiscatterColor, glm::vec3(0.5f, 0.25f, 1));
+  EXPECT_EQ(m.volume.scatterAnisotropy, -0.5f);
+  EXPECT_EQ(m.dispersion, 0.1f);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfMaterials, EveryExtensionTextureGoesToItsPlace) {
+  const Scene scene = load(assetWithTextures(
+      {{"extensions",
+        {{"KHR_materials_clearcoat",
+          {{"clearcoatTexture", {{"index", 6}}},
+           {"clearcoatRoughnessTexture", {{"index", 7}}},
+           {"clearcoatNormalTexture", {{"index", 8}, {"scale", 2}}}}},
+         {"KHR_materials_sheen", {{"sheenColorTexture", {{"index", 9}}}, {"sheenRoughnessTexture", {{"index", 10}}}}},
+         {"KHR_materials_anisotropy", {{"anisotropyTexture", {{"index", 11}}}}},
+         {"KHR_materials_iridescence",
+          {{"iridescenceTexture", {{"index", 12}}}, {"iridescenceThicknessTexture", {{"index", 13}}}}},
+         {"KHR_materials_transmission", {{"transmissionTexture", {{"index", 14}}}}},
+         {"KHR_materials_diffuse_transmission",
+          {{"diffuseTransmissionTexture", {{"index", 15}}}, {"diffuseTransmissionColorTexture", {{"index", 16}}}}},
+         {"KHR_materials_volume", {{"thicknessTexture", {{"index", 17}}}}}}}}));
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(redOf(scene, m.clearcoat.texture), 6);
+  EXPECT_EQ(redOf(scene, m.clearcoat.roughnessTexture), 7);
+  EXPECT_EQ(redOf(scene, m.clearcoat.normalTexture), 8);
+  EXPECT_EQ(m.clearcoat.normalTexture.scale, 2);
+  EXPECT_EQ(redOf(scene, m.sheen.colorTexture), 9);
+  EXPECT_EQ(redOf(scene, m.sheen.roughnessTexture), 10);
+  EXPECT_EQ(redOf(scene, m.anisotropy.texture), 11);
+  EXPECT_EQ(redOf(scene, m.iridescence.texture), 12);
+  EXPECT_EQ(redOf(scene, m.iridescence.thicknessTexture), 13);
+  EXPECT_EQ(redOf(scene, m.transmission.texture), 14);
+  EXPECT_EQ(redOf(scene, m.diffuseTransmission.texture), 15);
+  EXPECT_EQ(redOf(scene, m.diffuseTransmission.colorTexture), 16);
+  EXPECT_EQ(redOf(scene, m.volume.thicknessTexture), 17);
 }
 
 TEST(GltfMaterials, UnlitKeepsBaseColorOnly) {

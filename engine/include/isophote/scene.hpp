@@ -47,7 +47,65 @@ struct TextureRef {
   [[nodiscard]] bool present() const { return texture != kNone; }
 };
 
-/// Metallic-roughness with KHR_materials_emissive_strength, _unlit, _ior and _specular. Factors are linear.
+/// KHR_materials_clearcoat: a colorless dielectric layer of index 1.5 on top.
+struct Clearcoat {
+  float factor = 0; ///< 0: no coat
+  float roughness = 0;
+  TextureRef texture;          ///< R
+  TextureRef roughnessTexture; ///< G
+  TextureRef normalTexture;    ///< absent: the interpolated normal, not the base's bumped one
+};
+
+/// KHR_materials_sheen: a layer of fibres under the coat.
+struct Sheen {
+  glm::vec3 color{0}; ///< black: no sheen
+  float roughness = 0;
+  TextureRef colorTexture;     ///< sRGB
+  TextureRef roughnessTexture; ///< A
+};
+
+/// KHR_materials_anisotropy: alpha along the tangent grows to 1 with strength^2.
+struct Anisotropy {
+  float strength = 0;
+  float rotation = 0; ///< radians, counter-clockwise from the tangent
+  TextureRef texture; ///< RG: direction 2t - 1, B: strength
+};
+
+/// KHR_materials_iridescence: a thin film on the specular lobe.
+struct Iridescence {
+  float factor = 0; ///< 0: no film
+  float ior = 1.3f;
+  float thicknessMinimum = 100; ///< nm, where the thickness texture is 0
+  float thicknessMaximum = 400; ///< nm, where it is 1 and where there is none
+  TextureRef texture;           ///< R
+  TextureRef thicknessTexture;  ///< G
+};
+
+/// KHR_materials_transmission: the share of the dielectric base that is glass instead of diffuse.
+struct Transmission {
+  float factor = 0;
+  TextureRef texture; ///< R
+};
+
+/// KHR_materials_diffuse_transmission: the share of the diffuse lobe that scatters to the other side.
+struct DiffuseTransmission {
+  float factor = 0;
+  glm::vec3 color{1};
+  TextureRef texture;      ///< A
+  TextureRef colorTexture; ///< sRGB
+};
+
+/// KHR_materials_volume and _volume_scatter: what fills a closed mesh. Lengths are in world units.
+struct Volume {
+  float thickness = 0; ///< 0: thin-walled, no volume behind the surface
+  glm::vec3 attenuationColor{1};
+  float attenuationDistance = 0;  ///< distance at which white has become attenuationColor; 0: infinite
+  glm::vec3 multiscatterColor{0}; ///< multiple-scattering albedo; black: absorption only
+  float scatterAnisotropy = 0;    ///< Henyey-Greenstein g, in (-1, 1)
+  TextureRef thicknessTexture;    ///< G
+};
+
+/// Metallic-roughness and its extensions. Factors are linear; a texture multiplies the factor it stands beside.
 struct Material {
   std::string name;
   glm::vec4 baseColor{1};
@@ -55,12 +113,20 @@ struct Material {
   float roughness = 1;   ///< perceptual; alpha = roughness^2
   glm::vec3 emissive{0}; ///< emissiveFactor * emissiveStrength, radiance
   float ior = 1.5f;
+  float dispersion = 0; ///< KHR_materials_dispersion: 20 / Abbe number
   float specular = 1;
   glm::vec3 specularColor{1};
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5f;
   bool doubleSided = false;
   bool unlit = false;
+  Clearcoat clearcoat;
+  Sheen sheen;
+  Anisotropy anisotropy;
+  Iridescence iridescence;
+  Transmission transmission;
+  DiffuseTransmission diffuseTransmission;
+  Volume volume;
   TextureRef baseColorTexture;         ///< sRGB
   TextureRef metallicRoughnessTexture; ///< G roughness, B metallic, linear
   TextureRef normalTexture;
@@ -68,6 +134,10 @@ struct Material {
   TextureRef specularTexture;      ///< A, linear
   TextureRef specularColorTexture; ///< sRGB
 };
+
+/// The texture uses of a material, present or not, for loops over all of them.
+[[nodiscard]] std::vector<TextureRef*> textureRefs(Material& material);
+[[nodiscard]] std::vector<const TextureRef*> textureRefs(const Material& material);
 
 /// One triangle list. Attribute arrays are empty or as long as `positions`; all values are finite.
 struct Primitive {

@@ -16,13 +16,14 @@ struct PathPool {
   gpu::Buffer rays;
   gpu::Buffer hits;
   gpu::Buffer paths;
-  gpu::Buffer shadows; ///< null where no light is sampled
-  gpu::Buffer wave;    ///< WaveState
-  gpu::Buffer render;  ///< RenderView
+  gpu::Buffer shadows;   ///< null where no light is sampled
+  gpu::Buffer receivers; ///< null where the choice of a light does not depend on them
+  gpu::Buffer wave;      ///< WaveState
+  gpu::Buffer render;    ///< RenderView
   gpu::Buffer filterTable;
   gpu::Buffer readback; ///< WaveState on the host, copied at the end of each submit
 
-  PathPool(const Device& device, uint32_t paths, bool withShadows);
+  PathPool(const Device& device, uint32_t paths, bool withShadows, bool withReceivers);
 
   /// All slots free, counters zero.
   void reset(const Device& device) const;

@@ -36,7 +36,4 @@ private:
   Textures& textures_;
 };
 
-/// The texture uses of a material, for loops over all of them.
-[[nodiscard]] std::vector<TextureRef*> textureRefs(Material& material);
-
 } // namespace isophote::gltf

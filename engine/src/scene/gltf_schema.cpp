@@ -149,11 +149,48 @@ const Shape kSpecular = object({{"specularFactor", &kFloat},
                                 {"specularTexture", &kTextureInfo},
                                 {"specularColorFactor", &kFloat3},
                                 {"specularColorTexture", &kTextureInfo}});
+const Shape kClearcoat = object({{"clearcoatFactor", &kFloat},
+                                 {"clearcoatTexture", &kTextureInfo},
+                                 {"clearcoatRoughnessFactor", &kFloat},
+                                 {"clearcoatRoughnessTexture", &kTextureInfo},
+                                 {"clearcoatNormalTexture", &kTextureInfo}});
+const Shape kSheen = object({{"sheenColorFactor", &kFloat3},
+                             {"sheenColorTexture", &kTextureInfo},
+                             {"sheenRoughnessFactor", &kFloat},
+                             {"sheenRoughnessTexture", &kTextureInfo}});
+const Shape kAnisotropy =
+    object({{"anisotropyStrength", &kFloat}, {"anisotropyRotation", &kFloat}, {"anisotropyTexture", &kTextureInfo}});
+const Shape kIridescence = object({{"iridescenceFactor", &kFloat},
+                                   {"iridescenceTexture", &kTextureInfo},
+                                   {"iridescenceIor", &kFloat},
+                                   {"iridescenceThicknessMinimum", &kFloat},
+                                   {"iridescenceThicknessMaximum", &kFloat},
+                                   {"iridescenceThicknessTexture", &kTextureInfo}});
+const Shape kTransmission = object({{"transmissionFactor", &kFloat}, {"transmissionTexture", &kTextureInfo}});
+const Shape kDiffuseTransmission = object({{"diffuseTransmissionFactor", &kFloat},
+                                           {"diffuseTransmissionTexture", &kTextureInfo},
+                                           {"diffuseTransmissionColorFactor", &kFloat3},
+                                           {"diffuseTransmissionColorTexture", &kTextureInfo}});
+const Shape kVolume = object({{"thicknessFactor", &kFloat},
+                              {"thicknessTexture", &kTextureInfo},
+                              {"attenuationDistance", &kFloat},
+                              {"attenuationColor", &kFloat3}});
+const Shape kVolumeScatter = object({{"multiscatterColor", &kFloat3}, {"scatterAnisotropy", &kFloat}});
+const Shape kDispersion = object({{"dispersion", &kFloat}});
 const Shape kUnlit = object({});
-const Shape kMaterialExtensions = object({{"KHR_materials_emissive_strength", &kEmissiveStrength},
+const Shape kMaterialExtensions = object({{"KHR_materials_anisotropy", &kAnisotropy},
+                                          {"KHR_materials_clearcoat", &kClearcoat},
+                                          {"KHR_materials_diffuse_transmission", &kDiffuseTransmission},
+                                          {"KHR_materials_dispersion", &kDispersion},
+                                          {"KHR_materials_emissive_strength", &kEmissiveStrength},
                                           {"KHR_materials_ior", &kIor},
+                                          {"KHR_materials_iridescence", &kIridescence},
+                                          {"KHR_materials_sheen", &kSheen},
                                           {"KHR_materials_specular", &kSpecular},
-                                          {"KHR_materials_unlit", &kUnlit}});
+                                          {"KHR_materials_transmission", &kTransmission},
+                                          {"KHR_materials_unlit", &kUnlit},
+                                          {"KHR_materials_volume", &kVolume},
+                                          {"KHR_materials_volume_scatter", &kVolumeScatter}});
 const Shape kMaterial = object({{"name", &kString},
                                 {"alphaCutoff", &kFloat},
                                 {"alphaMode", &kString},

@@ -14,6 +14,15 @@ public:
   uint32_t add(const Material& material) {
     uvSets_ = 0;
     gpu::MaterialRecord record{};
+    setBase(material, record);
+    setLayers(material, record);
+    setInterior(material, record);
+    packed_.materials.push_back(record);
+    return uvSets_;
+  }
+
+private:
+  void setBase(const Material& material, gpu::MaterialRecord& record) {
     record.baseColor = material.baseColor;
     record.emissive = isEmitter(material) ? material.emissive : glm::vec3(0);
     record.metallic = material.metallic;
@@ -21,6 +30,7 @@ public:
     record.roughness = material.roughness;
     record.specular = material.specular;
     record.ior = material.ior;
+    record.dispersion = material.dispersion;
     record.alphaCutoff = material.alphaCutoff;
     record.alphaMode = static_cast<uint32_t>(material.alphaMode);
     record.flags = (material.doubleSided ? gpu::kMaterialDoubleSided : 0) | (material.unlit ? gpu::kMaterialUnlit : 0);
@@ -30,11 +40,52 @@ public:
     record.emissiveSlot = isEmitter(material) ? slot(material.emissiveTexture, true) : gpu::kInvalidIndex;
     record.specularSlot = slot(material.specularTexture, false);
     record.specularColorSlot = slot(material.specularColorTexture, true);
-    packed_.materials.push_back(record);
-    return uvSets_;
   }
 
-private:
+  // What lies on the base, and what bends its specular lobe.
+  void setLayers(const Material& material, gpu::MaterialRecord& record) {
+    const Clearcoat& clearcoat = material.clearcoat;
+    record.clearcoat = clearcoat.factor;
+    record.clearcoatRoughness = clearcoat.roughness;
+    record.clearcoatSlot = slot(clearcoat.texture, false);
+    record.clearcoatRoughnessSlot = slot(clearcoat.roughnessTexture, false);
+    record.clearcoatNormalSlot = slot(clearcoat.normalTexture, false);
+    const Sheen& sheen = material.sheen;
+    record.sheenColor = sheen.color;
+    record.sheenRoughness = sheen.roughness;
+    record.sheenColorSlot = slot(sheen.colorTexture, true);
+    record.sheenRoughnessSlot = slot(sheen.roughnessTexture, false);
+    const Anisotropy& anisotropy = material.anisotropy;
+    record.anisotropyStrength = anisotropy.strength;
+    record.anisotropyRotation = anisotropy.rotation;
+    record.anisotropySlot = slot(anisotropy.texture, false);
+    const Iridescence& iridescence = material.iridescence;
+    record.iridescence = iridescence.factor;
+    record.iridescenceIor = iridescence.ior;
+    record.iridescenceThicknessMinimum = iridescence.thicknessMinimum;
+    record.iridescenceThicknessMaximum = iridescence.thicknessMaximum;
+    record.iridescenceSlot = slot(iridescence.texture, false);
+    record.iridescenceThicknessSlot = slot(iridescence.thicknessTexture, false);
+  }
+
+  // What passes through the surface, and what it passes into.
+  void setInterior(const Material& material, gpu::MaterialRecord& record) {
+    record.transmission = material.transmission.factor;
+    record.transmissionSlot = slot(material.transmission.texture, false);
+    const DiffuseTransmission& diffuse = material.diffuseTransmission;
+    record.diffuseTransmission = diffuse.factor;
+    record.diffuseTransmissionColor = diffuse.color;
+    record.diffuseTransmissionSlot = slot(diffuse.texture, false);
+    record.diffuseTransmissionColorSlot = slot(diffuse.colorTexture, true);
+    const Volume& volume = material.volume;
+    record.thickness = volume.thickness;
+    record.thicknessSlot = slot(volume.thicknessTexture, false);
+    record.attenuationColor = volume.attenuationColor;
+    record.attenuationDistance = volume.attenuationDistance;
+    record.multiscatterColor = volume.multiscatterColor;
+    record.scatterAnisotropy = volume.scatterAnisotropy;
+  }
+
   uint32_t slot(const TextureRef& use, bool srgb) {
     if (!use.present()) return gpu::kInvalidIndex;
     uvSets_ |= 1u << use.uvSet;
