@@ -135,7 +135,8 @@ void describeResult(const RenderOptions& options, const RenderReport& report) {
   std::string error = "error unknown (one replicate)";
   const ErrorEstimate& e = report.result.error;
   if (e.known)
-    error = fmt::format("error {:.3g}% (95%: {:.3g} to {:.3g}%)", 100 * e.value, 100 * e.lower, 100 * e.upper);
+    error = fmt::format("error {:.3g}% ({:g}%: {:.3g} to {:.3g}%)", 100 * e.value, 100 * e.confidence, 100 * e.lower,
+                        100 * e.upper);
   fmt::print("{} x {} pixels, {} spp, {}, {:.2f} s: {}\n", report.view.width, report.view.height,
              report.samplesPerPixel, error, report.seconds.render, fmt::join(options.outputs, ", "));
 }

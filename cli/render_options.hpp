@@ -26,6 +26,7 @@ struct RenderOptions {
   std::optional<uint32_t> samplesPerPixel;
   std::optional<SampleRange> sampleRange;
   std::optional<double> targetError;
+  double confidence = 0.95;
   std::optional<double> seconds;
   Settings settings;
   float exposureEv = 0;

@@ -21,7 +21,8 @@ Json errorJson(const ErrorEstimate& error) {
   }
   json["value"] = error.value;
   json["interval"] = {error.lower, error.upper};
-  json["confidence"] = 0.95;
+  json["confidence"] = error.confidence;
+  json["untrusted_share"] = error.untrustedShare;
   return json;
 }
 

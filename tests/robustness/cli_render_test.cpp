@@ -41,7 +41,7 @@ TEST_F(CliRender, WritesTheLayersAndAttributesThatScriptsRead) {
   for (const char* name : {"R",          "G",          "B",         "A",        "stderr.R",      "stderr.G",
                            "stderr.B",   "ci95.R",     "ci95.G",    "ci95.B",   "sampleCount.Y", "albedo.R",
                            "albedo.G",   "albedo.B",   "normal.X",  "normal.Y", "normal.Z",      "depth.Z",
-                           "position.X", "position.Y", "position.Z"}) {
+                           "position.X", "position.Y", "position.Z", "trust.Y"}) {
     EXPECT_NE(read.find(name), nullptr) << name;
   }
   for (const char* name :
