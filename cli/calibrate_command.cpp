@@ -130,7 +130,7 @@ double share(uint64_t part, uint64_t whole) {
 int runCalibrate(const CalibrateOptions& options) {
   catchInterrupts();
   const LoadedScene loaded = loadScene(options.scene, options.environment);
-  const VulkanInstance instance({});
+  const VulkanInstance instance;
   const Device device(instance, {.selector = options.device});
   const Calibration calibration(device, loaded, options);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -131,8 +131,7 @@ TEST(RenderFilm, TheImagesErrorIsThatOfItsPlanes) {
   const auto trust = plane(image, "trust.Y");
   double luminance = 0;
   for (size_t i = 0; i < 576; ++i) {
-    luminance +=
-        0.2126 * plane(image, "R")[i] + 0.7152 * plane(image, "G")[i] + 0.0722 * plane(image, "B")[i];
+    luminance += 0.2126 * plane(image, "R")[i] + 0.7152 * plane(image, "G")[i] + 0.0722 * plane(image, "B")[i];
   }
   const double e = 0.01 * luminance / 576;
   double square = 0;

@@ -38,9 +38,9 @@ TEST_F(CliRender, WritesTheLayersAndAttributesThatScriptsRead) {
   const Image read = readExr(image());
   EXPECT_EQ(read.width, 24u);
   EXPECT_EQ(read.height, 12u); // the camera's aspect ratio is 2
-  for (const char* name : {"R",          "G",          "B",         "A",        "stderr.R",      "stderr.G",
-                           "stderr.B",   "ci95.R",     "ci95.G",    "ci95.B",   "sampleCount.Y", "albedo.R",
-                           "albedo.G",   "albedo.B",   "normal.X",  "normal.Y", "normal.Z",      "depth.Z",
+  for (const char* name : {"R",          "G",          "B",          "A",        "stderr.R",      "stderr.G",
+                           "stderr.B",   "ci95.R",     "ci95.G",     "ci95.B",   "sampleCount.Y", "albedo.R",
+                           "albedo.G",   "albedo.B",   "normal.X",   "normal.Y", "normal.Z",      "depth.Z",
                            "position.X", "position.Y", "position.Z", "trust.Y"}) {
     EXPECT_NE(read.find(name), nullptr) << name;
   }

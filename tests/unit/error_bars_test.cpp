@@ -94,9 +94,7 @@ double exceeding(const std::function<double(Random&)>& standardized, double scal
   return above / 2000.0;
 }
 
-double lognormal(Random& random) {
-  return std::exp(2 * std::normal_distribution<double>()(random)) - std::exp(2.0);
-}
+double lognormal(Random& random) { return std::exp(2 * std::normal_distribution<double>()(random)) - std::exp(2.0); }
 
 TEST(ErrorBars, TheImagesErrorExceedsItsUpperBoundInFewImages) {
   std::normal_distribution<double> normal;
