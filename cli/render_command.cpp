@@ -62,6 +62,11 @@ void checkOutputs(const RenderOptions& options) {
   }
 }
 
+void refuseBias(const Settings& settings) {
+  const auto bias = biasJson(settings);
+  if (!bias.empty()) throw UsageError("--unbiased: " + bias.begin().key() + " biases the image");
+}
+
 void refuseOverwritingInputs(const RenderOptions& options, const LoadedScene& loaded) {
   for (const std::string& file : options.outputs) refuseOverwriting(file, loaded.files);
   if (!options.statsFile.empty()) refuseOverwriting(options.statsFile, loaded.files);
@@ -150,6 +155,10 @@ int finish(const RenderOptions& options, const RenderReport& report, const Vulka
     return kInterrupted;
   }
   if (!messages.empty()) return kFailed;
+  if (options.unbiased && report.statistics.status.total() > 0) {
+    printError("--unbiased: samples were dropped or changed, see isophote.status; the image is saved");
+    return kFailed;
+  }
   if (report.result.outcome == Outcome::BudgetEnded) {
     printError(fmt::format("the budget ended at an error of {:.3g}%, above the target of {:.3g}%; the image is saved",
                            100 * report.result.error.upper, 100 * *options.targetError));
@@ -161,6 +170,7 @@ int finish(const RenderOptions& options, const RenderReport& report, const Vulka
 int runRender(const RenderOptions& options) {
   catchInterrupts();
   checkOutputs(options);
+  if (options.unbiased) refuseBias(options.settings);
   Stopwatch watch;
   RenderReport report{
       .scene = options.scene, .settings = options.settings, .environment = environmentJson(options.environment)};

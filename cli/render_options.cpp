@@ -109,6 +109,10 @@ void addEstimatorFlags(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false)
       ->group(kGroup);
   command
+      .add_flag("--unbiased", options.unbiased,
+                "Refuse every setting that biases the image, and fail on a dropped sample")
+      ->group(kGroup);
+  command
       .add_flag_callback(
           "--no-specialize", [&options] { options.settings.execution.specialize = false; },
           "Kernels with every feature, not just those the scene needs")

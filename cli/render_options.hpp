@@ -32,6 +32,7 @@ struct RenderOptions {
   float exposureEv = 0;
   ToneMap toneMap = ToneMap::Neutral;
   std::string device;
+  bool unbiased = false;
   bool quiet = false;
   bool verbose = false;
   bool validation = false;

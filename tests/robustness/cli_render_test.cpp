@@ -57,6 +57,14 @@ TEST_F(CliRender, WritesTheLayersAndAttributesThatScriptsRead) {
   EXPECT_GT(*std::max_element(read.find("R")->values.begin(), read.find("R")->values.end()), 0);
 }
 
+TEST_F(CliRender, UnbiasedRefusesABiasedSetting) {
+  const auto refused = render({"--spp", "1", "--unbiased", "--max-depth", "3"});
+  EXPECT_EQ(refused.exitCode, 2) << refused.err;
+  EXPECT_NE(refused.err.find("max-depth"), std::string::npos) << refused.err;
+  expectOneErrorLine(refused);
+  EXPECT_EQ(render({"--spp", "1", "--unbiased", "--quiet"}).exitCode, 0);
+}
+
 TEST_F(CliRender, WritesStatisticsAndPng) {
   const auto result = render({"-o", path("image.png").string(), "--stats", path("stats.json").string(), "--spp", "2"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
