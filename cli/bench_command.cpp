@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ constexpr uint32_t kHeight = 360;
 struct BenchOptions {
   std::string scene;
   EnvironmentOptions environment;
+  std::optional<std::string> variant;
   std::string device;
   double seconds = 4;
   bool json = false;
@@ -142,7 +144,7 @@ void printText(const Json& json) {
 }
 
 int runBench(const BenchOptions& options) {
-  Scene asset = loadScene(options.scene, options.environment).scene;
+  Scene asset = loadScene(options.scene, options.environment, options.variant).scene;
   const bool whiteEnvironment = !hasLight(asset);
   if (whiteEnvironment) asset.environment = Environment{.width = 1, .height = 1, .pixels = {glm::vec3(1)}};
   const View view = chooseView(asset, std::nullopt, kWidth, kHeight);
@@ -183,6 +185,7 @@ void addBenchCommand(CLI::App& program, Action& action) {
       *command, "--time", "SECONDS",
       [options](const std::string& text) { options->seconds = parseNumber(text, 0.1, 3600); },
       "How long to measure (4); compilation and a first sample come on top");
+  addVariantFlag(*command, options->variant);
   addEnvironmentFlags(*command, options->environment);
   command->footer("Examples:\n  isophote bench scene.glb\n  isophote bench scene.glb --env sky.hdr --time 10 --json\n\n"
                   "The image is 640 x 360 with default settings, whatever the camera's aspect.");

@@ -172,10 +172,12 @@ int runRender(const RenderOptions& options) {
   checkOutputs(options);
   if (options.unbiased) refuseBias(options.settings);
   Stopwatch watch;
-  RenderReport report{
-      .scene = options.scene, .settings = options.settings, .environment = environmentJson(options.environment)};
+  RenderReport report{.scene = options.scene,
+                      .settings = options.settings,
+                      .environment = environmentJson(options.environment),
+                      .variant = options.variant};
 
-  LoadedScene loaded = loadScene(options.scene, options.environment);
+  LoadedScene loaded = loadScene(options.scene, options.environment, options.variant);
   refuseOverwritingInputs(options, loaded);
   warnAboutScene(loaded.scene);
   report.view = chooseView(loaded.scene, options.camera, options.width, options.height);

@@ -25,7 +25,8 @@ vec4 materialTexel(const SceneRef scene, const SurfaceHit surface, const Geometr
 }
 
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
-/// B, specular A. Base color above 1, which float vertex colors can give, is cut to 1 where it is a reflectance.
+/// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
+/// reflectance.
 SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
   const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
   const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
@@ -41,6 +42,13 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
     material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g,
                                            record.ior, specular, specularColor);
+    if (kHasTransmission && record.ior >= 1.0) {
+      const float transmission =
+          record.transmission * materialTexel(scene, surface, geometry, record.transmissionSlot).r;
+      const bool thinWalled = record.thickness == 0.0;
+      setTransmission(material.bsdf.base, transmission, relativeIor(record.ior, surface.frontFace || thinWalled),
+                      thinWalled);
+    }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }

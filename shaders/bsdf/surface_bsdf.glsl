@@ -10,6 +10,9 @@ struct SurfaceBsdf {
   MetallicRoughness base;
 };
 
+/// Whether light passes to the other side.
+bool transmits(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
+
 /// Returns f |cos wi| and the sampling density of the continuous lobes.
 BsdfValue evaluateBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
   return evaluateBase(scene, bsdf.base, woLocal, wiLocal);

@@ -25,6 +25,10 @@ const uint kVertexPairs = 4u;
 const uint kRouletteDepth = 3u;
 const float kRouletteMaxSurvival = 0.999;
 
+// Shadow rays end this share of the way to the light: a light in a coordinate plane has no error to be offset by, and t
+// is rounded. 16 roundings; measured: without it such a light shadowed a third of its own samples.
+const float kBeforeLight = 1.0 - 9.5367431640625e-7;
+
 const bool kHasLights = kHasEmissiveTriangles || kHasPunctualLights || kHasEnvironment;
 
 // Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
@@ -37,7 +41,8 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
-  if (wiLocal.z <= 0.0 || dot(surface.ng, light.wi) <= 0.0) return;
+  // Both normals must agree on the side.
+  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
   const BsdfValue bsdf = evaluateBsdf(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
@@ -53,10 +58,21 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
     const vec3 target =
         light.delta ? light.point : offsetRayOrigin(light.point, light.pointError, light.ngLight, -light.wi);
     direction = target - origin; // not normalised: t runs from 0 to 1
-    tMax = 1.0;
+    tMax = kBeforeLight;
   }
   ShadowRef(pc.shadows).items[slot] = ShadowState(origin, tMax, direction, 0.0, contribution);
   pushSlot(kQueueShadow, slot);
+}
+
+// Squared index of the medium a path enters, over that at the camera; its state follows.
+float etaScaleBehind(const uint slot, const float eta) {
+  InteriorRef interiors = InteriorRef(pc.interiors);
+  float scale = interiors.items[slot].etaScale;
+  if (eta != 1.0) {
+    scale *= eta * eta;
+    interiors.items[slot].etaScale = scale;
+  }
+  return scale;
 }
 
 // Continues the path by a BSDF sample; false where it ends.
@@ -66,12 +82,14 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
   const BsdfSample bsdf = sampleBsdf(scene, material.bsdf, woLocal, choice.x, sample2d(key, pair + 2u));
   if (!bsdf.valid) return false;
   const vec3 wi = toWorld(frame, bsdf.wiLocal);
-  if (dot(surface.ng, wi) <= 0.0) return false;
+  if (bsdf.wiLocal.z * dot(surface.ng, wi) <= 0.0) return false;
   path.beta *= bsdf.weight;
   path.depth += 1u;
   float brightest = max(path.beta.x, max(path.beta.y, path.beta.z));
+  float power = brightest; // without the squared indices of radiance, which refraction back out will undo
+  if (kHasTransmission) power *= etaScaleBehind(slot, bsdf.eta);
   if (kRussianRoulette == 1u && path.depth >= kRouletteDepth) {
-    const float survival = min(brightest, kRouletteMaxSurvival);
+    const float survival = min(power, kRouletteMaxSurvival);
     if (choice.y >= survival) return false;
     path.beta /= survival;
     brightest /= survival;
@@ -129,7 +147,8 @@ void main() {
     const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasLights && (kLightSampling != 2u || kHasPunctualLights)) {
-      const LightReceiver receiver = LightReceiver(surface.p, ns);
+      // Lights on the far side of glass are sampled too.
+      const LightReceiver receiver = LightReceiver(surface.p, transmits(material.bsdf) ? vec3(0.0) : ns);
       if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
       sampleDirectLight(scene, surface, material, frame, woLocal, receiver, key, pair, slot, path.beta);
     }

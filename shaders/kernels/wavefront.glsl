@@ -24,6 +24,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer HitRef { Hit
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathRef { PathState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ReceiverRef { LightReceiver items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadowRef { ShadowState items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InteriorRef { InteriorState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ReplicateRef { ReplicateSum items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { AovSum items[]; };
 

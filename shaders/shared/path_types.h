@@ -43,6 +43,11 @@ struct ShadowState {
   vec3 contribution; // complete: beta, BSDF, light, MIS weight and 1/pdf
 };
 
+// Where a path is, in scenes with transmission.
+struct InteriorState {
+  float etaScale; // squared index of the path's medium over that at the camera
+};
+
 ISOPHOTE_CONST uint kQueueFree = 0u;
 ISOPHOTE_CONST uint kQueueRay = 1u;
 ISOPHOTE_CONST uint kQueueSurface = 2u;
@@ -125,6 +130,7 @@ struct KernelArgs {
   Address hits;
   Address paths;
   Address shadows;
+  Address interiors; // InteriorState[capacity], 0 where nothing transmits
   Address receivers; // LightReceiver that sampled a light last, for the weight of what its BSDF ray finds; 0: not kept
   uint capacity;
   uint activeLimit; // paths in flight, 0: no new path starts

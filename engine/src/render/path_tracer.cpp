@@ -110,7 +110,10 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
-    pool.emplace(device, paths, kernels->intersectShadow.has_value(), keepsReceivers());
+    pool.emplace(device, paths,
+                 PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                               .interiors = features.has(Feature::kHasTransmission),
+                               .receivers = keepsReceivers()});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
@@ -161,6 +164,7 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .hits = pool->hits.address(),
           .paths = pool->paths.address(),
           .shadows = pool->shadows.address(),
+          .interiors = pool->interiors.address(),
           .receivers = pool->receivers.address(),
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,

@@ -49,7 +49,10 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
   }
   // Factors multiply textures of at most 1, so a factor of 0 rules the lobe out. A dielectric with ior 1 keeps its
   // grazing reflection (f90 = specular).
-  if (material.metallic == 0 && material.specular == 0) return;
+  const bool transmits = material.transmission.factor > 0 && material.ior >= 1 &&
+                         (material.metallic < 1 || material.metallicRoughnessTexture.present());
+  if (transmits) features.add(Feature::kHasTransmission);
+  if (material.metallic == 0 && material.specular == 0 && !transmits) return;
   features.add(Feature::kHasSpecular);
   if (canBeMirror(scene, material)) features.add(Feature::kHasMirror);
 }
