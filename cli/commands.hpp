@@ -14,6 +14,7 @@ void addInfoCommand(CLI::App& program, Action& action);
 void addDevicesCommand(CLI::App& program, Action& action);
 void addCompareCommand(CLI::App& program, Action& action);
 void addBenchCommand(CLI::App& program, Action& action);
+void addCalibrateCommand(CLI::App& program, Action& action);
 void addSettingsCommand(CLI::App& program, Action& action);
 
 } // namespace isophote::cli

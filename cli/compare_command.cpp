@@ -51,6 +51,7 @@ void printJson(const CompareOptions& options, const Comparison& comparison) {
                                  {"reference", options.reference},
                                  {"relMSE", numberOrNull(comparison.relMse)},
                                  {"rmse", numberOrNull(comparison.rmse)},
+                                 {"psnr", numberOrNull(comparison.psnr)},
                                  {"flip", numberOrNull(comparison.flip)}};
   if (comparison.verdict) {
     json["verdict"] = {{"same", comparison.verdict->same},
@@ -62,7 +63,8 @@ void printJson(const CompareOptions& options, const Comparison& comparison) {
 }
 
 void printText(const Comparison& comparison) {
-  fmt::print("relMSE  {:.6g}\nRMSE    {:.6g}\nFLIP    {:.6g}\n", comparison.relMse, comparison.rmse, comparison.flip);
+  fmt::print("relMSE  {:.6g}\nRMSE    {:.6g}\nPSNR    {:.4g} dB\nFLIP    {:.6g}\n", comparison.relMse, comparison.rmse,
+             comparison.psnr, comparison.flip);
   if (!comparison.verdict) {
     fmt::print("verdict none: an image has no error bars (stderr.R, .G, .B)\n");
     return;

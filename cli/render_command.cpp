@@ -63,6 +63,11 @@ void checkOutputs(const RenderOptions& options) {
   }
 }
 
+void refuseBias(const Settings& settings) {
+  const auto bias = biasJson(settings);
+  if (!bias.empty()) throw UsageError("--unbiased: " + bias.begin().key() + " biases the image");
+}
+
 void refuseOverwritingInputs(const RenderOptions& options, const LoadedScene& loaded) {
   for (const std::string& file : options.outputs) refuseOverwriting(file, loaded.files);
   if (!options.statsFile.empty()) refuseOverwriting(options.statsFile, loaded.files);
@@ -136,7 +141,8 @@ void describeResult(const RenderOptions& options, const RenderReport& report) {
   std::string error = "error unknown (one replicate)";
   const ErrorEstimate& e = report.result.error;
   if (e.known)
-    error = fmt::format("error {:.3g}% (95%: {:.3g} to {:.3g}%)", 100 * e.value, 100 * e.lower, 100 * e.upper);
+    error = fmt::format("error {:.3g}% ({:g}%: {:.3g} to {:.3g}%)", 100 * e.value, 100 * e.confidence, 100 * e.lower,
+                        100 * e.upper);
   fmt::print("{} x {} pixels, {} spp, {}, {:.2f} s: {}\n", report.view.width, report.view.height,
              report.samplesPerPixel, error, report.seconds.render, fmt::join(options.outputs, ", "));
 }
@@ -150,6 +156,10 @@ int finish(const RenderOptions& options, const RenderReport& report, const Vulka
     return kInterrupted;
   }
   if (!messages.empty()) return kFailed;
+  if (options.unbiased && report.statistics.status.total() > 0) {
+    printError("--unbiased: samples were dropped or changed, see isophote.status; the image is saved");
+    return kFailed;
+  }
   if (report.result.outcome == Outcome::BudgetEnded) {
     printError(fmt::format("the budget ended at an error of {:.3g}%, above the target of {:.3g}%; the image is saved",
                            100 * report.result.error.upper, 100 * *options.targetError));
@@ -161,6 +171,7 @@ int finish(const RenderOptions& options, const RenderReport& report, const Vulka
 int runRender(const RenderOptions& options) {
   catchInterrupts();
   checkOutputs(options);
+  if (options.unbiased) refuseBias(options.settings);
   Stopwatch watch;
   RenderReport report{.scene = options.scene,
                       .settings = options.settings,

@@ -73,7 +73,17 @@ void addStopFlags(CLI::App& command, RenderOptions& options) {
       ->group(kGroup);
   addValue(
       command, "--target-error", "P", [&options](const std::string& text) { options.targetError = parseShare(text); },
-      "Stop when the image's relative RMS error is below P with 95% confidence: 2% or 0.02")
+      "Stop when the image's relative RMS error is below P with --confidence: 2% or 0.02")
+      ->group(kGroup);
+  addValue(
+      command, "--confidence", "P",
+      [&options](const std::string& text) {
+        options.confidence = parseShare(text);
+        if (options.confidence < 0.5 || options.confidence > 0.9999) {
+          throw UsageError("'" + text + "' is not between 50% and 99.99%");
+        }
+      },
+      "Of the interval of the image's error (95%)")
       ->group(kGroup);
   addValue(
       command, "--time", "SECONDS",
@@ -103,6 +113,10 @@ void addEstimatorFlags(CLI::App& command, RenderOptions& options) {
           "Any setting that `isophote settings` lists; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
+      ->group(kGroup);
+  command
+      .add_flag("--unbiased", options.unbiased,
+                "Refuse every setting that biases the image, and fail on a dropped sample")
       ->group(kGroup);
   command
       .add_flag_callback(
@@ -138,7 +152,7 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
 }
 
 StopRule RenderOptions::stopRule() const {
-  StopRule rule{.samples = {0, kMaxSamples}, .targetError = targetError, .seconds = seconds};
+  StopRule rule{.samples = {0, kMaxSamples}, .targetError = targetError, .confidence = confidence, .seconds = seconds};
   if (sampleRange) {
     rule.samples = *sampleRange;
   } else if (samplesPerPixel) {

@@ -27,12 +27,14 @@ struct RenderOptions {
   std::optional<uint32_t> samplesPerPixel;
   std::optional<SampleRange> sampleRange;
   std::optional<double> targetError;
+  double confidence = 0.95;
   std::optional<double> seconds;
   Settings settings;
   float exposureEv = 0;
   ToneMap toneMap = ToneMap::Neutral;
   Transfer transfer = Transfer::Srgb;
   std::string device;
+  bool unbiased = false;
   bool quiet = false;
   bool verbose = false;
   bool validation = false;

@@ -21,7 +21,8 @@ Json errorJson(const ErrorEstimate& error) {
   }
   json["value"] = error.value;
   json["interval"] = {error.lower, error.upper};
-  json["confidence"] = 0.95;
+  json["confidence"] = error.confidence;
+  json["untrusted_share"] = error.untrustedShare;
   return json;
 }
 
@@ -59,6 +60,16 @@ Json leftOutJson(const FeatureSet& features) {
 Json figureOfMerit(const RenderResult& result) {
   if (!result.error.known || !(result.error.value > 0) || !(result.seconds > 0)) return nullptr;
   return 1 / (result.error.value * result.error.value * result.seconds);
+}
+
+/// The settings that bias the image, and the samples that were lost.
+Json ledgerJson(const RenderReport& report) {
+  Json ledger = biasJson(report.settings);
+  const StatusCounters& status = report.statistics.status;
+  const uint64_t samples = report.statistics.primaryRays;
+  const uint64_t lost = status.nonFinite + status.negative + status.clipped;
+  if (lost > 0) ledger["dropped-samples"] = {{"count", lost}, {"of", samples}, {"exact", 0}};
+  return ledger;
 }
 
 Json sizeJson(const RenderReport& report) {
@@ -131,7 +142,7 @@ Json statsJson(const RenderReport& report) {
             {"sah_cost", scene.sahCost},
             {"max_depth", scene.bvhMaxDepth}}},
           {"error", errorJson(report.result.error)},
-          {"bias", biasJson(report.settings)},
+          {"bias", ledgerJson(report)},
           {"status", statusJson(render.status)},
           {"figure_of_merit", figureOfMerit(report.result)},
           {"outcome", outcomeName(report.result.outcome)},
@@ -168,7 +179,7 @@ std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
           {"isophote.seed", std::to_string(report.settings.estimator.seed)},
           {"isophote.sampleRange", fmt::format("{}:{}", report.samples.first, report.samples.last)},
           {"isophote.error", dump(errorJson(report.result.error))},
-          {"isophote.bias", dump(biasJson(report.settings))},
+          {"isophote.bias", dump(ledgerJson(report))},
           {"isophote.status", dump(statusJson(report.statistics.status))}};
 }
 

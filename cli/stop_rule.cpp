@@ -21,7 +21,7 @@ public:
     while (next < rule_.samples.last) {
       const uint32_t end = next + passLength(next);
       const bool finished = renderPass({next, end});
-      error_ = film_.error();
+      error_ = film_.error(rule_.confidence);
       if (interrupted()) return result(Outcome::Interrupted);
       if (targetReached()) return result(Outcome::Completed);
       if (!finished) return result(rule_.targetError ? Outcome::BudgetEnded : Outcome::Completed);
@@ -57,7 +57,7 @@ private:
     double fraction = done / (rule_.samples.last - rule_.samples.first);
     if (rule_.seconds) fraction = std::max(fraction, elapsed() / *rule_.seconds);
     if (secondsSince(errorAt_) > 1) { // costs a pass over the film
-      error_ = film_.error();
+      error_ = film_.error(rule_.confidence);
       errorAt_ = Clock::now();
     }
     // Errors fall as the square root of the work.

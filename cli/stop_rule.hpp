@@ -12,7 +12,8 @@ namespace isophote::cli {
 
 struct StopRule {
   SampleRange samples;               ///< at most these
-  std::optional<double> targetError; ///< relative RMS error; reached when its 95% interval lies below
+  std::optional<double> targetError; ///< relative RMS error; reached when its interval lies below
+  double confidence = 0.95;          ///< of that interval
   std::optional<double> seconds;     ///< of rendering, compilation excluded
 };
 

@@ -15,6 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Rep
 struct PixelMean {
   vec3 mean;
   vec3 varianceOfMean; // 0 where fewer than two replicates hold samples
+  float largestShare;  // of one replicate in the squared deviations of a channel
   uint replicates;     // that hold samples
   uint sampleCount;
 };
@@ -22,7 +23,7 @@ struct PixelMean {
 /// The count-weighted mean over replicates, and the unbiased variance of it for equally filled replicates:
 /// sum w_r^2 (m_r - m)^2 / (1 - sum w_r^2) with w_r the replicate's share of the samples.
 PixelMean pixelMean(const ReplicateRef sums, const uint pixel, const float valueScale) {
-  PixelMean result = PixelMean(vec3(0.0), vec3(0.0), 0u, 0u);
+  PixelMean result = PixelMean(vec3(0.0), vec3(0.0), 0.0, 0u, 0u);
   int64_t red = 0l, green = 0l, blue = 0l;
   for (uint r = 0u; r < kReplicateCount; ++r) {
     const uint index = pixel * kReplicateCount + r;
@@ -37,6 +38,7 @@ PixelMean pixelMean(const ReplicateRef sums, const uint pixel, const float value
   result.mean = vec3(float(red), float(green), float(blue)) * (valueScale / total);
   if (result.replicates < 2u) return result;
   float squares = 0.0;
+  vec3 largest = vec3(0.0);
   for (uint r = 0u; r < kReplicateCount; ++r) {
     const uint index = pixel * kReplicateCount + r;
     const float count = float(sums.items[index].count);
@@ -46,7 +48,13 @@ PixelMean pixelMean(const ReplicateRef sums, const uint pixel, const float value
         (valueScale / count);
     const float share = count / total;
     squares += share * share;
-    result.varianceOfMean += share * share * (mean - result.mean) * (mean - result.mean);
+    const vec3 deviation = share * (mean - result.mean);
+    result.varianceOfMean += deviation * deviation;
+    largest = max(largest, deviation * deviation);
+  }
+  for (uint c = 0u; c < 3u; ++c) {
+    if (result.varianceOfMean[c] > 0.0)
+      result.largestShare = max(result.largestShare, largest[c] / result.varianceOfMean[c]);
   }
   result.varianceOfMean /= 1.0 - squares;
   return result;

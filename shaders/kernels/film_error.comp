@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform PushConstant { FilmArgs pc; };
 void main() {
   const uint invocation = gl_GlobalInvocationID.x;
   if (invocation >= kErrorInvocations) return;
-  ErrorPartial partial = ErrorPartial(0.0, 0.0, 0.0, 0u);
+  ErrorPartial partial = ErrorPartial(0.0, 0.0, 0.0, 0.0, 0u, 0u);
   for (uint pixel = invocation; pixel < pc.pixelCount; pixel += kErrorInvocations) {
     const PixelMean m = pixelMean(ReplicateRef(pc.replicates), pixel, pc.valueScale);
     partial.luminance += dot(m.mean, vec3(0.2126, 0.7152, 0.0722));
@@ -25,10 +25,11 @@ void main() {
     const vec3 terms = m.varianceOfMean / (m.mean * m.mean + pc.epsilonSquare);
     const float term = terms.x + terms.y + terms.z;
     partial.relativeSquare += term;
-    // A variance estimated with n degrees of freedom has a relative variance of 2/n; the square of the estimate
-    // overstates the square of the truth by 1 + 2/n. The channels are taken as fully correlated.
-    const float dof = float(m.replicates - 1u);
-    partial.spread += term * term * (2.0 / dof) / (1.0 + 2.0 / dof);
+    partial.termSquare += term * term;
+    if (m.replicates == kReplicateCount && m.largestShare > kTrustedShare) {
+      partial.untrusted += term;
+      partial.untrustedCount += 1u;
+    }
     partial.pixelCount += 1u;
   }
   PartialRef(pc.target).items[invocation] = partial;

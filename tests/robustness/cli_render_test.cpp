@@ -38,10 +38,10 @@ TEST_F(CliRender, WritesTheLayersAndAttributesThatScriptsRead) {
   const Image read = readExr(image());
   EXPECT_EQ(read.width, 24u);
   EXPECT_EQ(read.height, 12u); // the camera's aspect ratio is 2
-  for (const char* name : {"R",          "G",          "B",         "A",        "stderr.R",      "stderr.G",
-                           "stderr.B",   "ci95.R",     "ci95.G",    "ci95.B",   "sampleCount.Y", "albedo.R",
-                           "albedo.G",   "albedo.B",   "normal.X",  "normal.Y", "normal.Z",      "depth.Z",
-                           "position.X", "position.Y", "position.Z"}) {
+  for (const char* name : {"R",          "G",          "B",          "A",        "stderr.R",      "stderr.G",
+                           "stderr.B",   "ci95.R",     "ci95.G",     "ci95.B",   "sampleCount.Y", "albedo.R",
+                           "albedo.G",   "albedo.B",   "normal.X",   "normal.Y", "normal.Z",      "depth.Z",
+                           "position.X", "position.Y", "position.Z", "trust.Y"}) {
     EXPECT_NE(read.find(name), nullptr) << name;
   }
   for (const char* name :
@@ -55,6 +55,14 @@ TEST_F(CliRender, WritesTheLayersAndAttributesThatScriptsRead) {
   EXPECT_GT(nlohmann::json::parse(read.attributes.at("isophote.error")).at("value"), 0);
   EXPECT_GT(read.renderSeconds, 0);
   EXPECT_GT(*std::max_element(read.find("R")->values.begin(), read.find("R")->values.end()), 0);
+}
+
+TEST_F(CliRender, UnbiasedRefusesABiasedSetting) {
+  const auto refused = render({"--spp", "1", "--unbiased", "--max-depth", "3"});
+  EXPECT_EQ(refused.exitCode, 2) << refused.err;
+  EXPECT_NE(refused.err.find("max-depth"), std::string::npos) << refused.err;
+  expectOneErrorLine(refused);
+  EXPECT_EQ(render({"--spp", "1", "--unbiased", "--quiet"}).exitCode, 0);
 }
 
 TEST_F(CliRender, WritesStatisticsAndPng) {

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENES = ("*.gltf", "*.glb")
+SCENES = ("*.gltf", "*.glb", "*.hdr")
 
 
 class Assets(unittest.TestCase):

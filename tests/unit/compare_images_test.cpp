@@ -227,5 +227,13 @@ TEST(CompareImages, SurvivesNansAndInfinities) {
   EXPECT_TRUE(comparison.flip > 0 && comparison.flip <= 1);
 }
 
+TEST(CompareImages, PsnrIsThatOfWhatADisplayShows) {
+  const Image quarter = flat(4, 4, {0.25f, 0.25f, 0.25f}), half = flat(4, 4, {0.5f, 0.5f, 0.5f});
+  const double difference =
+      double(toneMap(glm::vec3(0.5f), ToneMap::Neutral).x) - double(toneMap(glm::vec3(0.25f), ToneMap::Neutral).x);
+  EXPECT_NEAR(compareImages(half, quarter).psnr, -20 * std::log10(difference), 1e-5);
+  EXPECT_TRUE(std::isinf(compareImages(half, half).psnr));
+}
+
 } // namespace
 } // namespace isophote

@@ -21,6 +21,7 @@ struct Verdict {
 struct Comparison {
   double relMse = 0; ///< mean over pixels and channels of (a - b)^2 / (b^2 + e^2), e = 1% of b's mean luminance
   double rmse = 0;
+  double psnr = 0; ///< decibel, of what a display shows after the Neutral tone map; infinite for equal pictures
   double flip = 0; ///< mean LDR-FLIP (Andersson et al. 2020) after the Neutral tone map
   std::optional<Verdict> verdict;
   std::vector<float> flipMap; ///< per pixel, row 0 at the top

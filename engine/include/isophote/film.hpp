@@ -14,9 +14,11 @@ namespace isophote {
 /// image's mean luminance.
 struct ErrorEstimate {
   double value = 0;
-  double lower = 0; ///< 95% confidence interval
-  double upper = 0;
-  bool known = false; ///< false until two replicates hold samples
+  double lower = 0; ///< confidence interval of the error that this image has
+  double upper = 0; ///< untrusted pixels count at a pessimistic bound
+  double confidence = 0.95;
+  double untrustedShare = 0; ///< pixels whose error bar rests on about one event
+  bool known = false;        ///< false until two replicates hold samples
 };
 
 struct FilmOptions {
@@ -39,12 +41,13 @@ public:
   [[nodiscard]] uint64_t bytes() const;
   void clear();
 
-  /// Mean, standard error, 95% interval, sample count and AOVs as the channels of interface.md.
+  /// Mean, standard error, 95% interval, sample count, trust and AOVs as the channels of interface.md.
   /// Reads the sums back once; wait for PathTracer to finish first.
   [[nodiscard]] Image resolve() const;
 
   /// Estimated on the device from the replicates, cheap enough to call every second.
-  [[nodiscard]] ErrorEstimate error() const;
+  /// @param confidence  of the two-sided interval, in (0, 1)
+  [[nodiscard]] ErrorEstimate error(double confidence = 0.95) const;
 
   /// Writes tone-mapped RGBA8 (packed, R lowest) of the crop, row 0 at the top, to the buffer at `address`: what a
   /// viewer shows. Recorded and waited for.

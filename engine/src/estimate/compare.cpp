@@ -56,6 +56,16 @@ std::vector<glm::vec3> display(const Rgb& color, size_t pixels) {
   return result;
 }
 
+/// 10 log10(1 / mean square difference) of values in [0, 1].
+double psnr(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const glm::dvec3 difference = glm::dvec3(a[i]) - glm::dvec3(b[i]);
+    sum += glm::dot(difference, difference);
+  }
+  return -10 * std::log10(sum / (3.0 * static_cast<double>(a.size())));
+}
+
 } // namespace
 
 Comparison compareImages(const Image& test, const Image& reference) {
@@ -71,7 +81,10 @@ Comparison compareImages(const Image& test, const Image& reference) {
   const auto [relative, plain] = meanSquares(a, b, pixels);
   comparison.relMse = relative;
   comparison.rmse = std::sqrt(plain);
-  comparison.flipMap = estimate::flipMap(display(a, pixels), display(b, pixels), test.width, test.height);
+  const std::vector<glm::vec3> shownA = display(a, pixels);
+  const std::vector<glm::vec3> shownB = display(b, pixels);
+  comparison.psnr = psnr(shownA, shownB);
+  comparison.flipMap = estimate::flipMap(shownA, shownB, test.width, test.height);
   comparison.flip =
       std::accumulate(comparison.flipMap.begin(), comparison.flipMap.end(), 0.0) / static_cast<double>(pixels);
   comparison.verdict = estimate::compareStatistically(test, reference);

@@ -1,19 +1,14 @@
 // The image's relative RMS error with its confidence interval, from sums made on the device.
-#include <cmath>
+#include <algorithm>
 #include <vector>
 
+#include "isophote/error.hpp"
 #include "isophote/film.hpp"
 #include "render/film_impl.hpp"
+#include "render/image_error.hpp"
 
 namespace isophote {
 namespace {
-
-struct ErrorSums {
-  double luminance = 0;
-  double relativeSquare = 0;
-  double spread = 0;
-  uint64_t pixels = 0;
-};
 
 ErrorSums sumPartials(const Film::Impl& film, double epsilonSquare) {
   gpu::FilmArgs args = film.arguments(film.errorPartials.address());
@@ -25,15 +20,18 @@ ErrorSums sumPartials(const Film::Impl& film, double epsilonSquare) {
   for (const auto& partial : partials) {
     sums.luminance += partial.luminance;
     sums.relativeSquare += partial.relativeSquare;
-    sums.spread += partial.spread;
+    sums.termSquare += partial.termSquare;
+    sums.untrusted += partial.untrusted;
     sums.pixels += partial.pixelCount;
+    sums.untrustedPixels += partial.untrustedCount;
   }
   return sums;
 }
 
 } // namespace
 
-ErrorEstimate Film::error() const {
+ErrorEstimate Film::error(double confidence) const {
+  if (!(confidence > 0 && confidence < 1)) throw UsageError("a confidence lies between 0 and 1");
   if (!impl_->scale) return {};
   if (impl_->errorPartials.bytes() == 0) {
     impl_->errorPartials = gpu::Buffer(*impl_->device, gpu::kErrorInvocations * sizeof(gpu::ErrorPartial),
@@ -43,14 +41,7 @@ ErrorEstimate Film::error() const {
   const ErrorSums first = sumPartials(*impl_, 1e-30);
   if (first.pixels == 0) return {};
   const double e = 0.01 * first.luminance / impl_->pixelCount();
-  const ErrorSums sums = sumPartials(*impl_, std::max(e * e, 1e-30));
-  const double count = 3.0 * static_cast<double>(sums.pixels);
-  const double relMse = sums.relativeSquare / count;
-  const double halfWidth = 1.959964 * std::sqrt(sums.spread) / count; // normal: a sum over many independent pixels
-  return {.value = std::sqrt(relMse),
-          .lower = std::sqrt(std::max(0.0, relMse - halfWidth)),
-          .upper = std::sqrt(relMse + halfWidth),
-          .known = true};
+  return imageError(sumPartials(*impl_, std::max(e * e, 1e-30)), confidence);
 }
 
 } // namespace isophote

@@ -1,52 +1,15 @@
 // Exact sums -> the float channels of an image, in double on the host.
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "isophote/film.hpp"
 #include "render/film_impl.hpp"
+#include "render/pixel_error.hpp"
 
 namespace isophote {
 namespace {
-
-// 97.5% quantile of Student's t with 1 to 7 degrees of freedom.
-constexpr std::array<double, 8> kStudent975 = {0, 12.7062, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462};
-
-struct ChannelMean {
-  double mean = 0;
-  double standardError = std::numeric_limits<double>::infinity(); ///< unknown below two replicates
-  double halfWidth95 = std::numeric_limits<double>::infinity();
-};
-
-/// @param sums  the replicates' sums of one channel, @param counts  their sample counts
-ChannelMean channelMean(const std::array<int64_t, gpu::kReplicateCount>& sums,
-                        const std::array<uint32_t, gpu::kReplicateCount>& counts, double valuePerUnit) {
-  ChannelMean result;
-  double total = 0;
-  double count = 0;
-  uint32_t replicates = 0;
-  for (uint32_t r = 0; r < gpu::kReplicateCount; ++r) {
-    total += static_cast<double>(sums[r]);
-    count += counts[r];
-    if (counts[r] > 0) ++replicates;
-  }
-  if (count == 0) return {0, 0, 0};
-  result.mean = total / count * valuePerUnit;
-  if (replicates < 2) return result;
-  double squares = 0;
-  double variance = 0;
-  for (uint32_t r = 0; r < gpu::kReplicateCount; ++r) {
-    if (counts[r] == 0) continue;
-    const double share = counts[r] / count;
-    const double difference = static_cast<double>(sums[r]) / counts[r] * valuePerUnit - result.mean;
-    squares += share * share;
-    variance += share * share * difference * difference;
-  }
-  result.standardError = std::sqrt(variance / (1 - squares));
-  result.halfWidth95 = kStudent975[replicates - 1] * result.standardError;
-  return result;
-}
 
 std::vector<std::byte> readAll(const Device& device, const gpu::Buffer& buffer) {
   std::vector<std::byte> bytes(buffer.bytes());
@@ -65,6 +28,7 @@ void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Imag
   for (const char* color : kColors)
     image.channels.push_back({std::string("ci95.") + color, std::vector<float>(pixels)});
   image.channels.push_back({"sampleCount.Y", std::vector<float>(pixels)});
+  image.channels.push_back({"trust.Y", std::vector<float>(pixels)});
   for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
     const gpu::ReplicateSum* sum = sums + size_t{pixel} * gpu::kReplicateCount;
     std::array<std::array<int64_t, gpu::kReplicateCount>, 3> values{};
@@ -79,8 +43,10 @@ void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Imag
       samples += sum[r].count;
       hits += sum[r].hitCount;
     }
+    double largestShare = 0;
     for (size_t c = 0; c < 3; ++c) {
-      const ChannelMean mean = channelMean(values[c], counts, perUnit);
+      const PixelError mean = pixelError(values[c], counts, perUnit);
+      largestShare = std::max(largestShare, mean.largestShare);
       image.channels[c].values[pixel] = static_cast<float>(mean.mean);
       image.channels[4 + c].values[pixel] = static_cast<float>(mean.standardError);
       image.channels[7 + c].values[pixel] = static_cast<float>(mean.halfWidth95);
@@ -88,6 +54,7 @@ void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Imag
     const double coverage = samples > 0 ? static_cast<double>(hits) / static_cast<double>(samples) : 0.0;
     image.channels[3].values[pixel] = static_cast<float>(coverage);
     image.channels[10].values[pixel] = static_cast<float>(samples);
+    image.channels[11].values[pixel] = static_cast<float>(trust(largestShare));
   }
 }
 
