@@ -13,8 +13,18 @@ enum Setting : uint32_t {
 #undef ISOPHOTE_SETTING
 };
 
-std::vector<gpu::SpecConstant> specialization(const FeatureSet& features, const EstimatorSettings& settings,
-                                              uint32_t workgroupSize) {
+// Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
+bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings) {
+  if (settings.maxDepth == 0) return false;
+  if (features.has(Feature::kHasPunctualLights)) return true;
+  return settings.lightSampling != LightSampling::BsdfOnly &&
+         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasEnvironment));
+}
+
+} // namespace
+
+std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const EstimatorSettings& settings,
+                                               uint32_t workgroupSize) {
   std::vector<gpu::SpecConstant> constants = {{0, workgroupSize}};
   for (const FeatureDescription& description : allFeatures()) {
     constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
@@ -25,16 +35,6 @@ std::vector<gpu::SpecConstant> specialization(const FeatureSet& features, const 
   constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
   return constants;
 }
-
-// Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
-bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings) {
-  if (settings.maxDepth == 0) return false;
-  if (features.has(Feature::kHasPunctualLights)) return true;
-  return settings.lightSampling != LightSampling::BsdfOnly &&
-         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasEnvironment));
-}
-
-} // namespace
 
 std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
   std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
@@ -48,7 +48,7 @@ std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
 WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
                                       const EstimatorSettings& settings, uint32_t workgroupSize,
                                       VkDescriptorSetLayout textureLayout) {
-  const auto constants = specialization(features, settings, workgroupSize);
+  const auto constants = kernelConstants(features, settings, workgroupSize);
   const auto make = [&](const char* name) {
     return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
   };
