@@ -121,7 +121,7 @@ uint64_t mismatches(const RayBatch& batch, const RayList& list, const std::vecto
 Json ratioJson(const Ratio& ratio) { return {{"median", ratio.median}, {"low", ratio.low}, {"high", ratio.high}}; }
 
 void run(const Options& options) {
-  Scene asset = cli::loadScene(options.scene, options.environment).scene;
+  Scene asset = cli::loadScene(options.scene, options.environment, std::nullopt).scene;
   if (!cli::hasLight(asset)) asset.environment = Environment{.width = 1, .height = 1, .pixels = {glm::vec3(1)}};
   const cli::View view = cli::chooseView(asset, std::nullopt, options.width, options.height);
   const VulkanInstance instance;

@@ -17,7 +17,7 @@ class Generation {
 public:
   Generation(const Device& device, const GpuScene& scene, const Camera& camera, uint32_t width, uint32_t height)
       : device_(device), scene_(scene), film_(device, {.width = width, .height = height, .aovs = false}),
-        pool_(device, paddedPixels(width, height), true),
+        pool_(device, paddedPixels(width, height), {.shadows = true, .interiors = true, .receivers = true}),
         kernels_(makeWavefrontKernels(device, scene.features(), {}, kWorkgroup, scene.impl().textures.layout())),
         commands_(device, 8, "record") {
     const std::vector<float> filter = filterTable({});
@@ -64,6 +64,8 @@ private:
                                .hits = pool_.hits.address(),
                                .paths = pool_.paths.address(),
                                .shadows = pool_.shadows.address(),
+                               .interiors = pool_.interiors.address(),
+                               .receivers = pool_.receivers.address(),
                                .capacity = pool_.capacity,
                                .activeLimit = pool_.capacity,
                                .prepare = prepare,

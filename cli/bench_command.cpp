@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ constexpr uint32_t kHeight = 360;
 struct BenchOptions {
   std::string scene;
   EnvironmentOptions environment;
+  std::optional<std::string> variant;
   std::string device;
   std::string rays;
   double seconds = 4;
@@ -148,7 +150,7 @@ int runRays(const BenchOptions& options) {
   const RayList list = readRays(options.rays);
   const VulkanInstance instance;
   const Device device(instance, {.selector = options.device});
-  const GpuScene scene(device, loadScene(options.scene, options.environment).scene);
+  const GpuScene scene(device, loadScene(options.scene, options.environment, options.variant).scene);
   RayTimes times = timeRays(device, scene, list, options.seconds);
   std::sort(times.seconds.begin(), times.seconds.end());
   const double median = times.seconds[times.seconds.size() / 2];
@@ -178,7 +180,7 @@ int runRays(const BenchOptions& options) {
 
 int runBench(const BenchOptions& options) {
   if (!options.rays.empty()) return runRays(options);
-  Scene asset = loadScene(options.scene, options.environment).scene;
+  Scene asset = loadScene(options.scene, options.environment, options.variant).scene;
   const bool whiteEnvironment = !hasLight(asset);
   if (whiteEnvironment) asset.environment = Environment{.width = 1, .height = 1, .pixels = {glm::vec3(1)}};
   const View view = chooseView(asset, std::nullopt, kWidth, kHeight);
@@ -221,6 +223,7 @@ void addBenchCommand(CLI::App& program, Action& action) {
       *command, "--time", "SECONDS",
       [options](const std::string& text) { options->seconds = parseNumber(text, 0.1, 3600); },
       "How long to measure (4); compilation and a first sample come on top");
+  addVariantFlag(*command, options->variant);
   addEnvironmentFlags(*command, options->environment);
   command->footer("Examples:\n  isophote bench scene.glb\n  isophote bench scene.glb --env sky.hdr --time 10 --json\n\n"
                   "The image is 640 x 360 with default settings, whatever the camera's aspect.");

@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "isophote/features.hpp"
+#include "isophote/gltf.hpp"
 #include "scene_source.hpp"
 #include "scene_summary.hpp"
 
@@ -19,6 +21,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
   std::string scene;
   EnvironmentOptions environment;
+  std::optional<std::string> variant;
   bool json = false;
 };
 
@@ -99,6 +102,7 @@ Json infoJson(const InfoOptions& options, const Scene& scene) {
             {"texture_bytes", summary.textureBytes},
             {"environment_bytes", summary.environmentBytes},
             {"total_bytes", summary.totalBytes()}}},
+          {"variants", gltfVariants(options.scene)},
           {"extensions_used", scene.extensionsUsed},
           {"extensions_ignored", scene.extensionsIgnored},
           {"warnings", scene.warnings}};
@@ -125,6 +129,7 @@ void printText(const InfoOptions& options, const Scene& scene) {
     fmt::print("  camera {} '{}', {}\n", i, scene.cameras[i].name, orthographic ? "orthographic" : "perspective");
   }
   for (const PunctualLight& light : scene.lights) fmt::print("  {} light '{}'\n", kindName(light.kind), light.name);
+  for (const std::string& variant : gltfVariants(options.scene)) fmt::print("  variant '{}'\n", variant);
   if (scene.environment) fmt::print("  environment {} x {}\n", scene.environment->width, scene.environment->height);
   if (!hasLight(scene)) fmt::print("  no light: a render needs --env or --env-color\n");
   const Bounds bounds = worldBounds(scene);
@@ -138,12 +143,12 @@ void printText(const InfoOptions& options, const Scene& scene) {
   printFeatures(sceneFeatures(scene));
   if (!scene.extensionsUsed.empty()) fmt::print("\nextensions: {}\n", fmt::join(scene.extensionsUsed, ", "));
   if (!scene.extensionsIgnored.empty())
-    fmt::print("extensions not known, ignored: {}\n", fmt::join(scene.extensionsIgnored, ", "));
+    fmt::print("extensions ignored: {}\n", fmt::join(scene.extensionsIgnored, ", "));
   for (const std::string& warning : scene.warnings) fmt::print("warning: {}\n", warning);
 }
 
 int runInfo(const InfoOptions& options) {
-  const LoadedScene loaded = loadScene(options.scene, options.environment);
+  const LoadedScene loaded = loadScene(options.scene, options.environment, options.variant);
   if (options.json) {
     // Names in assets need not be UTF-8; what is not is replaced.
     fmt::print("{}\n", infoJson(options, loaded.scene).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -161,6 +166,7 @@ void addInfoCommand(CLI::App& program, Action& action) {
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("SCENE", options->scene, "glTF 2.0 file, .gltf or .glb")->required();
   command->add_flag("--json", options->json, "Machine-readable");
+  addVariantFlag(*command, options->variant);
   addEnvironmentFlags(*command, options->environment);
   command->footer(
       "Examples:\n  isophote info scene.glb\n  isophote info scene.glb --env sky.hdr --json\n\nNeeds no GPU.");

@@ -161,10 +161,12 @@ int runRender(const RenderOptions& options) {
   catchInterrupts();
   checkOutputs(options);
   Stopwatch watch;
-  RenderReport report{
-      .scene = options.scene, .settings = options.settings, .environment = environmentJson(options.environment)};
+  RenderReport report{.scene = options.scene,
+                      .settings = options.settings,
+                      .environment = environmentJson(options.environment),
+                      .variant = options.variant};
 
-  LoadedScene loaded = loadScene(options.scene, options.environment);
+  LoadedScene loaded = loadScene(options.scene, options.environment, options.variant);
   refuseOverwritingInputs(options, loaded);
   warnAboutScene(loaded.scene);
   report.view = chooseView(loaded.scene, options.camera, options.width, options.height);

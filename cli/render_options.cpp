@@ -118,6 +118,7 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
   addImageFlags(command, options);
   addStopFlags(command, options);
   addEstimatorFlags(command, options);
+  addVariantFlag(command, options.variant);
   addEnvironmentFlags(command, options.environment);
   command
       .add_option("--device", options.device,

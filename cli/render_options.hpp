@@ -23,6 +23,7 @@ struct RenderOptions {
   std::optional<std::string> camera;
   PixelRect crop;
   EnvironmentOptions environment;
+  std::optional<std::string> variant;
   std::optional<uint32_t> samplesPerPixel;
   std::optional<SampleRange> sampleRange;
   std::optional<double> targetError;

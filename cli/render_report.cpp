@@ -149,6 +149,7 @@ std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
   settings["image"] = sizeJson(report);
   settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
   settings["environment"] = report.environment;
+  if (report.variant) settings["variant"] = *report.variant;
   return {{"isophote.version", kVersion},
           {"isophote.scene", report.scene},
           {"isophote.sceneHash", report.sceneHash},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -32,6 +33,7 @@ struct RenderReport {
   PixelRect crop;
   Settings settings;
   nlohmann::ordered_json environment; ///< as asked for on the command line
+  std::optional<std::string> variant; ///< of materials, likewise
   FeatureSet features;
   SceneStatistics sceneStatistics;
   RenderStatistics statistics;

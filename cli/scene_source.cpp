@@ -86,9 +86,15 @@ void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options) {
       ->group(kGroup);
 }
 
-LoadedScene loadScene(const std::string& file, const EnvironmentOptions& environment) {
+void addVariantFlag(CLI::App& command, std::optional<std::string>& variant) {
+  command.add_option("--variant", variant, "Materials of the asset's variant of this name (its default materials)")
+      ->type_name("NAME");
+}
+
+LoadedScene loadScene(const std::string& file, const EnvironmentOptions& environment,
+                      const std::optional<std::string>& variant) {
   LoadedScene loaded;
-  loaded.scene = loadGltf(file);
+  loaded.scene = loadGltf(file, {.variant = variant});
   loaded.files = sceneFiles(file);
   setEnvironment(loaded.scene, environment);
   if (!environment.file.empty()) loaded.files.emplace_back(environment.file);

@@ -23,13 +23,17 @@ struct EnvironmentOptions {
 /// --env, --env-color, --env-intensity, --env-rotation
 void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options);
 
+/// --variant
+void addVariantFlag(CLI::App& command, std::optional<std::string>& variant);
+
 struct LoadedScene {
   Scene scene;
   std::vector<std::filesystem::path> files; ///< all inputs, the asset first
 };
 
 /// @throws SceneError, UnsupportedError, LimitError, UsageError
-[[nodiscard]] LoadedScene loadScene(const std::string& file, const EnvironmentOptions& environment);
+[[nodiscard]] LoadedScene loadScene(const std::string& file, const EnvironmentOptions& environment,
+                                    const std::optional<std::string>& variant = std::nullopt);
 
 /// Whether anything in the scene gives light.
 [[nodiscard]] bool hasLight(const Scene& scene);

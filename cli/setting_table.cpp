@@ -74,6 +74,11 @@ std::vector<SettingEntry> makeTable() {
               "next event estimation and BSDF sampling combined, or one alone"},
              estimator, &E::lightSampling,
              {{"mis", LightSampling::Mis}, {"lights", LightSampling::LightsOnly}, {"bsdf", LightSampling::BsdfOnly}}),
+      choice({"light-selection", "bvh, power, uniform", "bvh", "bvh",
+              "how one of many lights is chosen: by what it can do at the point (by power where lights are few), by "
+              "power, or all alike"},
+             estimator, &E::lightSelection,
+             {{"bvh", LightSelection::Bvh}, {"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}),
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
              estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
       choice(

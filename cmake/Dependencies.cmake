@@ -13,3 +13,23 @@ find_package(SPIRV-Tools-opt REQUIRED)
 pkg_check_modules(STB REQUIRED IMPORTED_TARGET GLOBAL stb)
 find_program(GLSLANG glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# Compressed glTF; an asset that needs what is missing is refused.
+find_package(meshoptimizer QUIET)
+find_package(draco QUIET)
+pkg_check_modules(WEBP QUIET IMPORTED_TARGET GLOBAL libwebp)
+
+# Links what was found, and says so to the compiler in those of the target's `sources` that use it:
+# ISOPHOTE_HAS_MESHOPT, ISOPHOTE_HAS_DRACO, ISOPHOTE_HAS_WEBP. The headers lie where all system headers do.
+function(isophote_link_compression target)
+  foreach(library meshoptimizer=MESHOPT=meshoptimizer::meshoptimizer draco=DRACO=draco::draco WEBP=WEBP=PkgConfig::WEBP)
+    string(REPLACE "=" ";" parts ${library})
+    list(GET parts 0 package)
+    list(GET parts 1 name)
+    list(GET parts 2 linked)
+    if(${package}_FOUND)
+      target_link_libraries(${target} PRIVATE $<LINK_ONLY:${linked}>)
+      set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS ISOPHOTE_HAS_${name})
+    endif()
+  endforeach()
+endfunction()

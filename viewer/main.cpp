@@ -14,7 +14,7 @@ namespace isophote::viewer {
 namespace {
 
 Scene loadScene(const Options& options) {
-  Scene scene = loadGltf(options.scene);
+  Scene scene = loadGltf(options.scene, {.variant = options.variant});
   if (!options.environment.empty()) scene.environment = loadEnvironment(options.environment, scene.warnings);
   for (const std::string& warning : scene.warnings) std::fprintf(stderr, "isophote-viewer: %s\n", warning.c_str());
   return scene;

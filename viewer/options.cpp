@@ -23,6 +23,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
   app.add_option("--scale", options.scale, "window pixels a side of one image pixel (1 on a GPU, 2 on a CPU)")
       ->check(CLI::Range(1, 16));
   app.add_option("--camera", options.camera, "glTF camera, by name or index");
+  app.add_option("--variant", options.variant, "materials of the asset's variant of this name");
   app.add_option("--env", options.environment, "equirectangular HDR or EXR environment");
   app.add_option("--exposure", options.exposure, "EV")->check(CLI::Range(-30.0, 30.0));
   app.add_option("--tonemap", options.toneMap, "neutral, agx, aces, srgb or linear")

@@ -16,7 +16,8 @@ struct Options {
   uint32_t scale = 0; ///< window pixels a side of one image pixel; 0: 1 on a GPU, 2 on a CPU
   float exposure = 0; ///< EV
   ToneMap toneMap = ToneMap::Neutral;
-  std::string camera;      ///< name or index; empty: the first
+  std::string camera; ///< name or index; empty: the first
+  std::optional<std::string> variant;
   std::string environment; ///< HDR or EXR file
   std::string device;
   std::string output;          ///< stem of saved images; empty: the scene's name in the current folder

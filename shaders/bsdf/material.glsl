@@ -2,7 +2,7 @@
 #ifndef ISOPHOTE_BSDF_MATERIAL_GLSL
 #define ISOPHOTE_BSDF_MATERIAL_GLSL
 
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/surface_bsdf.glsl"
 #include "geometry/attributes.glsl"
 #include "geometry/surface.glsl"
 #include "geometry/texture_slot.glsl"
@@ -12,7 +12,7 @@
 #include "shared/constants.glsl"
 
 struct SurfaceMaterial {
-  MetallicRoughness bsdf;
+  SurfaceBsdf bsdf;
   vec3 baseColor; // linear, as authored: an unlit surface's radiance
   bool unlit;
 };
@@ -25,7 +25,8 @@ vec4 materialTexel(const SceneRef scene, const SurfaceHit surface, const Geometr
 }
 
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
-/// B, specular A. Base color above 1, which float vertex colors can give, is cut to 1 where it is a reflectance.
+/// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
+/// reflectance.
 SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
   const MaterialRecord record = MaterialRef(scene.view.materials).items[surface.material];
   const Geometry geometry = GeometryRef(scene.view.geometries).items[surface.geometry];
@@ -39,10 +40,17 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface) {
     const float specular = record.specular * materialTexel(scene, surface, geometry, record.specularSlot).a;
     const vec3 specularColor =
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
-    material.bsdf = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g, record.ior,
-                                      specular, specularColor);
+    material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g,
+                                           record.ior, specular, specularColor);
+    if (kHasTransmission && record.ior >= 1.0) {
+      const float transmission =
+          record.transmission * materialTexel(scene, surface, geometry, record.transmissionSlot).r;
+      const bool thinWalled = record.thickness == 0.0;
+      setTransmission(material.bsdf.base, transmission, relativeIor(record.ior, surface.frontFace || thinWalled),
+                      thinWalled);
+    }
   } else {
-    material.bsdf = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
+    material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
   }
   return material;
 }

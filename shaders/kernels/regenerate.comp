@@ -42,5 +42,6 @@ void main() {
 
   RayRef(pc.rays).items[slot] = RayState(ray.origin, ray.tMin, ray.direction, ray.tMax);
   PathRef(pc.paths).items[slot] = PathState(vec3(1.0), 0.0, vec3(0.0), 0u, key.pixel, sampleIndex, 0u);
+  if (kHasTransmission) InteriorRef(pc.interiors).items[slot] = InteriorState(1.0);
   pushSlot(kQueueRay, slot);
 }

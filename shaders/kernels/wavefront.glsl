@@ -22,7 +22,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer QueueRef { u
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayRef { RayState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer HitRef { HitState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PathRef { PathState items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ReceiverRef { LightReceiver items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadowRef { ShadowState items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InteriorRef { InteriorState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ReplicateRef { ReplicateSum items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { AovSum items[]; };
 

@@ -2,12 +2,8 @@
 #ifndef ISOPHOTE_LIGHT_ALIAS_GLSL
 #define ISOPHOTE_LIGHT_ALIAS_GLSL
 
+#include "light/light_choice_result.glsl"
 #include "shared/buffers.glsl"
-
-struct LightChoice {
-  uint index;
-  float pmf; // > 0
-};
 
 /// Chooses a light with the probabilities of the alias table.
 ///
@@ -15,7 +11,7 @@ struct LightChoice {
 /// their own value however small they are and however many lights there are. Source: Walker 1977, "An Efficient Method
 /// for Generating Discrete Random Variables"; Vose 1991.
 /// @param bits  two uniform 32-bit fractions
-LightChoice chooseLight(const SceneRef scene, uvec2 bits) {
+LightChoice chooseByAlias(const SceneRef scene, uvec2 bits) {
   AliasRef table = AliasRef(scene.view.lightAlias);
   uint bin;
   uint fraction;
@@ -25,9 +21,7 @@ LightChoice chooseLight(const SceneRef scene, uvec2 bits) {
   return LightChoice(index, table.items[index].pmf);
 }
 
-/// Probability of choosing light `index`; 0 where the scene has no such light.
-float lightPmf(const SceneRef scene, uint index) {
-  return index < scene.view.lightCount ? AliasRef(scene.view.lightAlias).items[index].pmf : 0.0;
-}
+/// Probability with which chooseByAlias chooses light `index` < lightCount.
+float aliasPmf(const SceneRef scene, uint index) { return AliasRef(scene.view.lightAlias).items[index].pmf; }
 
 #endif

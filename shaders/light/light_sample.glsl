@@ -3,9 +3,9 @@
 #ifndef ISOPHOTE_LIGHT_LIGHT_SAMPLE_GLSL
 #define ISOPHOTE_LIGHT_LIGHT_SAMPLE_GLSL
 
-#include "light/alias.glsl"
 #include "light/emission.glsl"
 #include "light/environment.glsl"
+#include "light/light_choice.glsl"
 #include "light/punctual.glsl"
 #include "sampling/warp.glsl"
 
@@ -85,21 +85,21 @@ LightSample sampleEnvironmentLight(const SceneRef scene, float pmf, vec2 u) {
   return result;
 }
 
-/// Samples the light that arrives at p, visibility left open.
+/// Samples the light that arrives at a receiver, visibility left open.
 ///
-/// @param p           world, relative to the scene's origin
 /// @param choiceBits  which light
 /// @param u           where on it, multiples of 2^-24 in [0, 1)
-LightSample sampleLight(const SceneRef scene, vec3 p, uvec2 choiceBits, vec2 u) {
+LightSample sampleLight(const SceneRef scene, const LightReceiver receiver, uvec2 choiceBits, vec2 u) {
   if (scene.view.lightCount == 0u) return noLightSample();
-  const LightChoice choice = chooseLight(scene, choiceBits);
+  const LightChoice choice = chooseLight(scene, receiver, choiceBits);
+  if (choice.pmf <= 0.0) return noLightSample();
   const uint triangleCount = kHasEmissiveTriangles ? scene.view.emissiveTriangleCount : 0u;
   const uint punctualCount = kHasPunctualLights ? scene.view.punctualLightCount : 0u;
   if (kHasEmissiveTriangles && choice.index < triangleCount) {
-    return sampleEmissiveTriangle(scene, choice.index, choice.pmf, p, u);
+    return sampleEmissiveTriangle(scene, choice.index, choice.pmf, receiver.p, u);
   }
   if (kHasPunctualLights && choice.index < triangleCount + punctualCount) {
-    return samplePunctualLight(scene, choice.index - triangleCount, choice.pmf, p);
+    return samplePunctualLight(scene, choice.index - triangleCount, choice.pmf, receiver.p);
   }
   if (kHasEnvironment) return sampleEnvironmentLight(scene, choice.pmf, u);
   return noLightSample();
@@ -110,18 +110,22 @@ LightSample sampleLight(const SceneRef scene, vec3 p, uvec2 choiceBits, vec2 u) 
 /// @param surface   the hit; its flags hold kTriangleEmissive
 /// @param cosLight  |cosine| between the ray and the surface's normal
 /// @param distance  from the ray's origin to the hit
-float emitterPdfSolidAngle(const SceneRef scene, const SurfaceHit surface, float cosLight, float distance) {
+/// @param receiver  what sampleLight was given where the ray starts
+float emitterPdfSolidAngle(const SceneRef scene, const SurfaceHit surface, float cosLight, float distance,
+                           const LightReceiver receiver) {
   if (!kHasEmissiveTriangles || (surface.flags & kTriangleEmissive) == 0u) return 0.0;
   const uint firstEmitter = InstanceRef(scene.view.instances).items[surface.instance].firstEmitter;
   const uint firstEmissive = GeometryRef(scene.view.geometries).items[surface.geometry].firstEmissive;
-  const float pmf = lightPmf(scene, firstEmitter + firstEmissive + surface.primitiveIndex);
+  const float pmf = lightPmf(scene, receiver, firstEmitter + firstEmissive + surface.primitiveIndex);
   return pmf * areaToSolidAngle(surface.area, cosLight, distance);
 }
 
-/// Density per steradian with which sampleLight finds `direction` on the environment.
+/// Density per steradian with which sampleLight finds `direction` on the environment. Lights without a place have the
+/// same probability everywhere, so there is no receiver.
 float environmentHitPdf(const SceneRef scene, vec3 direction) {
   if (!kHasEnvironment) return 0.0;
-  const float pmf = lightPmf(scene, scene.view.emissiveTriangleCount + scene.view.punctualLightCount);
+  const float pmf = lightPmf(scene, LightReceiver(vec3(0.0), vec3(0.0)),
+                             scene.view.emissiveTriangleCount + scene.view.punctualLightCount);
   return pmf > 0.0 ? pmf * environmentPdfSolidAngle(scene, direction) : 0.0;
 }
 

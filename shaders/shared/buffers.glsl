@@ -30,6 +30,7 @@ ISOPHOTE_BUFFER(GeometryRef, Geometry);
 ISOPHOTE_BUFFER(MaterialRef, MaterialRecord);
 ISOPHOTE_BUFFER(TextureSlotRef, TextureSlot);
 ISOPHOTE_BUFFER(AliasRef, AliasEntry);
+ISOPHOTE_BUFFER(LightTreeRef, LightTreeNode);
 ISOPHOTE_BUFFER(EmissiveTriangleRef, EmissiveTriangle);
 ISOPHOTE_BUFFER(PunctualLightRef, PunctualLightRecord);
 

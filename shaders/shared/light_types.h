@@ -14,6 +14,30 @@ struct AliasEntry {
   float pmf;
 };
 
+// A cluster of lights in the light tree, or one light. Lengths and positions are SceneView.lightTreeScale times the
+// world's, relative to its origin; intensities are shares of their sum over all lights with a place.
+struct LightTreeNode {
+  vec3 center;     // of a sphere that holds the lights
+  float radius;    // kLightTreeFixed: what is below has no place, or none that counts here; `intensity` is its weight
+  float intensity; // largest, summed over the lights
+  uint axis;       // of the cone of normals: octahedral, two signed normalised 16-bit numbers
+  uint cosines;    // of thetaO and thetaE (accel/light_cone.hpp), two signed normalised 16-bit numbers
+  uint child;      // first of two neighbouring nodes; with kLightTreeLeaf a light; kLightTreeTwoSided apart
+};
+ISOPHOTE_CONST uint kLightTreeLeaf = 0x80000000u;
+ISOPHOTE_CONST uint kLightTreeTwoSided = 0x40000000u; // light leaves about -axis as well
+ISOPHOTE_CONST uint kLightTreeIndexMask = 0x3fffffffu;
+ISOPHOTE_CONST uint kLightTreeMaxLights = 0x1fffffffu;
+ISOPHOTE_CONST uint kLightTreeMaxDepth = 31u;
+ISOPHOTE_CONST float kLightTreeFixed = 3.402823466e38f;
+ISOPHOTE_CONST uint kNoLightTrail = 0xffffffffu; // of lights that are not in the tree: 32 steps, one too many
+
+// The point that light is chosen for.
+struct LightReceiver {
+  vec3 p;  // relative to SceneView.worldOrigin
+  vec3 ns; // unit; only light with dot(ns, wi) > 0 counts. 0: light from all around
+};
+
 struct EmissiveTriangle {
   uint instance;
   uint triangle; // index of its BvhTriangle

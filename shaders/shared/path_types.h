@@ -5,6 +5,7 @@
 #include "camera_types.h"
 #include "film_types.h"
 #include "glsl_compat.h"
+#include "light_types.h"
 
 ISOPHOTE_SHARED_BEGIN
 
@@ -40,6 +41,11 @@ struct ShadowState {
   vec3 direction;
   float unused;
   vec3 contribution; // complete: beta, BSDF, light, MIS weight and 1/pdf
+};
+
+// Where a path is, in scenes with transmission.
+struct InteriorState {
+  float etaScale; // squared index of the path's medium over that at the camera
 };
 
 ISOPHOTE_CONST uint kQueueFree = 0u;
@@ -124,6 +130,8 @@ struct KernelArgs {
   Address hits;
   Address paths;
   Address shadows;
+  Address interiors; // InteriorState[capacity], 0 where nothing transmits
+  Address receivers; // LightReceiver that sampled a light last, for the weight of what its BSDF ray finds; 0: not kept
   uint capacity;
   uint activeLimit; // paths in flight, 0: no new path starts
   uint prepare;     // kPrepare*

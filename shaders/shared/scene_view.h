@@ -20,6 +20,8 @@ struct SceneView {
   Address materials;         // MaterialRecord
   Address textureSlots;      // TextureSlot
   Address lightAlias;        // AliasEntry, one per light
+  Address lightTree;         // LightTreeNode, root first; 0: the scene has few lights
+  Address lightTrails;       // uint, one per light: bit d is the child to take at depth d of the tree
   Address emissiveTriangles; // EmissiveTriangle
   Address punctualLights;    // PunctualLightRecord
   Address ggxAlbedo;         // vec2 table of bsdf/ggx_albedo.glsl
@@ -28,6 +30,7 @@ struct SceneView {
   uint emissiveTriangleCount;
   uint punctualLightCount;
   uint instanceCount;
+  float lightTreeScale;
   float emitterScale; // PackedScene::emitterScale: the Film's fixed point follows it
 };
 

@@ -12,6 +12,9 @@ struct BsdfCase {
   float roughness;
   float ior;
   float specular;
+  float transmission; // 0: not glass
+  uint backFace;      // wo is in the glass
+  uint thinWalled;
   vec3 wo;
   vec3 wi;
   float uLobe;
@@ -30,6 +33,7 @@ struct BsdfResult {
   vec3 fCosSampled; // evaluated anew at sampledWi
   float pdfAtSampled;
   uint flags;
+  float eta; // of the sample
 };
 
 ISOPHOTE_SHARED_END

@@ -38,6 +38,16 @@ inline gpu::BsdfCase mixedMaterial(float roughness) {
   return c;
 }
 
+enum class Side { Outside, Inside, ThinWall };
+
+inline gpu::BsdfCase glass(float roughness, Side side, glm::vec3 baseColor = glm::vec3(1)) {
+  gpu::BsdfCase c = bsdfMaterial(baseColor, 0, roughness);
+  c.transmission = 1;
+  c.backFace = side == Side::Inside ? 1 : 0;
+  c.thinWalled = side == Side::ThinWall ? 1 : 0;
+  return c;
+}
+
 inline glm::vec3 directionOf(double cosine, double phi) {
   const double sine = std::sqrt(1 - cosine * cosine);
   return {float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(cosine)};
@@ -53,8 +63,11 @@ inline void drawUniforms(gpu::BsdfCase& c, std::mt19937& generator) {
 }
 
 inline oracle::MetallicRoughness oracleMaterial(const gpu::BsdfCase& c) {
-  return oracle::metallicRoughness(glm::dvec3(c.baseColor), double(c.metallic), double(c.roughness), double(c.ior),
-                                   double(c.specular), glm::dvec3(c.specularColor));
+  const auto opaque = oracle::metallicRoughness(glm::dvec3(c.baseColor), double(c.metallic), double(c.roughness),
+                                                double(c.ior), double(c.specular), glm::dvec3(c.specularColor));
+  return c.transmission == 0 ? opaque
+                             : oracle::withTransmission(opaque, double(c.transmission), double(c.ior), c.backFace == 0,
+                                                        c.thinWalled != 0);
 }
 
 inline std::string describe(const gpu::BsdfCase& c) {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/surface_bsdf.glsl"
 #include "glsl/bsdf_case.h"
 #define PROBE_INPUT BsdfCase
 #define PROBE_OUTPUT BsdfResult
@@ -8,8 +8,12 @@
 
 BsdfResult probe(const BsdfCase c) {
   SceneRef scene = SceneRef(pc.extra);
-  const MetallicRoughness m =
-      metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
+  SurfaceBsdf m;
+  m.base = metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor);
+  const bool thinWalled = c.thinWalled != 0u;
+  if (c.transmission > 0.0) {
+    setTransmission(m.base, c.transmission, relativeIor(c.ior, thinWalled || c.backFace == 0u), thinWalled);
+  }
   BsdfResult result;
   result.fCos = evalBsdf(scene, m, c.wo, c.wi);
   result.pdf = pdfBsdf(scene, m, c.wo, c.wi);
@@ -20,5 +24,6 @@ BsdfResult probe(const BsdfCase c) {
   result.fCosSampled = evalBsdf(scene, m, c.wo, drawn.wiLocal);
   result.pdfAtSampled = pdfBsdf(scene, m, c.wo, drawn.wiLocal);
   result.flags = (drawn.delta ? kBsdfDelta : 0u) | (drawn.valid ? kBsdfValid : 0u);
+  result.eta = drawn.eta;
   return result;
 }

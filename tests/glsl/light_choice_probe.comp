@@ -7,6 +7,6 @@
 #include "support/probe_main.glsl"
 
 LightChoiceResult probe(const LightChoiceCase c) {
-  const LightChoice choice = chooseLight(SceneRef(pc.extra), c.bits);
+  const LightChoice choice = chooseByAlias(SceneRef(pc.extra), c.bits);
   return LightChoiceResult(choice.index, choice.pmf);
 }

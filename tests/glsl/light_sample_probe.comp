@@ -12,7 +12,8 @@ void hitLight(SceneRef scene, const LightSampleCase c, inout LightSampleResult r
     const EmissiveTriangle light = EmissiveTriangleRef(scene.view.emissiveTriangles).items[result.light];
     const SurfaceHit surface =
         surfaceAt(scene, light.instance, light.triangle, sampleUniformTriangle(c.u).xy, -result.wi);
-    result.hitPdf = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, result.wi)), distance(surface.p, c.p));
+    result.hitPdf = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, result.wi)), distance(surface.p, c.p),
+                                         LightReceiver(c.p, vec3(0.0)));
     result.hitRadiance = emittedRadiance(scene, surface);
   } else if (result.atInfinity != 0u && result.delta == 0u) {
     result.hitPdf = environmentHitPdf(scene, result.wi);
@@ -22,7 +23,8 @@ void hitLight(SceneRef scene, const LightSampleCase c, inout LightSampleResult r
 
 LightSampleResult probe(const LightSampleCase c) {
   SceneRef scene = SceneRef(pc.extra);
-  const LightSample s = sampleLight(scene, c.p, c.choiceBits, c.u);
+  const LightReceiver receiver = LightReceiver(c.p, vec3(0.0));
+  const LightSample s = sampleLight(scene, receiver, c.choiceBits, c.u);
   LightSampleResult result;
   result.point = s.point;
   result.pointError = s.pointError;
@@ -34,7 +36,7 @@ LightSampleResult probe(const LightSampleCase c) {
   result.delta = uint(s.delta);
   result.atInfinity = uint(s.atInfinity);
   result.valid = uint(s.valid);
-  result.light = scene.view.lightCount > 0u ? chooseLight(scene, c.choiceBits).index : kInvalidIndex;
+  result.light = scene.view.lightCount > 0u ? chooseLight(scene, receiver, c.choiceBits).index : kInvalidIndex;
   result.hitPdf = 0.0;
   result.hitRadiance = vec3(0.0);
   if (s.valid) hitLight(scene, c, result);

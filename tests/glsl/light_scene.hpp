@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "accel/light_tree.hpp"
 #include "gpu/buffer.hpp"
 #include "isophote/scene.hpp"
 #include "shared/scene_view.h"
@@ -27,8 +28,9 @@ struct LightScene {
   std::vector<glm::vec2> uvs;
   std::vector<gpu::EmissiveTriangle> emissiveTriangles;
   std::vector<gpu::PunctualLightRecord> punctualLights;
-  std::vector<double> powers; ///< of every light in the order of light indices
-  Environment environment;    ///< no pixels: none
+  std::vector<double> powers;     ///< of every light in the order of light indices
+  std::vector<LightBound> bounds; ///< for the light tree; none: the scene has no tree
+  Environment environment;        ///< no pixels: none
 
   /// Uploads everything; the scene lives as long as this object.
   [[nodiscard]] uint64_t address() {
@@ -46,6 +48,10 @@ struct LightScene {
     const auto alias = buildAliasTable(powers);
     view.lightAlias = add(alias);
     view.lightCount = static_cast<uint32_t>(alias.size());
+    const LightTree tree = buildLightTree(bounds);
+    if (!tree.nodes.empty()) view.lightTree = add(tree.nodes);
+    view.lightTrails = add(tree.trails);
+    view.lightTreeScale = tree.scale;
     view.emissiveTriangleCount = static_cast<uint32_t>(emissiveTriangles.size());
     view.punctualLightCount = static_cast<uint32_t>(punctualLights.size());
     view.instanceCount = static_cast<uint32_t>(instances.size());

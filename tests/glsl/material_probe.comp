@@ -21,13 +21,13 @@ MaterialResult probe(const MaterialCase c) {
   MaterialResult result;
   result.baseColor = material.baseColor;
   result.unlit = uint(material.unlit);
-  result.reflectance = material.bsdf.baseColor;
-  result.metallic = material.bsdf.metallic;
-  result.f0 = material.bsdf.f0;
-  result.alpha = material.bsdf.alpha;
-  result.f90 = material.bsdf.f90;
-  result.dielectricF0 = material.bsdf.dielectricF0;
-  result.dielectricF90 = material.bsdf.dielectricF90;
+  result.reflectance = material.bsdf.base.baseColor;
+  result.metallic = material.bsdf.base.metallic;
+  result.f0 = material.bsdf.base.f0;
+  result.alpha = material.bsdf.base.alpha;
+  result.f90 = material.bsdf.base.f90;
+  result.dielectricF0 = material.bsdf.base.dielectricF0;
+  result.dielectricF90 = material.bsdf.base.dielectricF90;
   result.ns = shadingNormal(scene, surface, c.wo);
   return result;
 }

@@ -23,9 +23,10 @@ public:
   static constexpr uint32_t kWorkgroup = 64;
 
   Stage(const Scene& scene, uint32_t capacity, const FilmOptions& filmOptions = {.width = 4, .height = 4})
-      : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions), pool(gpuDevice(), capacity, true),
+      : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions),
+        pool(gpuDevice(), capacity, {.shadows = true, .interiors = true}),
         kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)), rays(capacity),
-        hits(capacity), paths(capacity), shadows(capacity) {
+        hits(capacity), paths(capacity), shadows(capacity), interiors(capacity, {1}) {
     for (auto& queue : queues) queue.resize(capacity);
     view.replicates = film.impl().replicates.address();
     view.aovs = film.impl().aovs.address();
@@ -71,6 +72,7 @@ public:
   std::vector<gpu::HitState> hits;
   std::vector<gpu::PathState> paths;
   std::vector<gpu::ShadowState> shadows;
+  std::vector<gpu::InteriorState> interiors;
 
 private:
   // The scenes of these tests have none, and a kernel that reads them would need some.
@@ -89,6 +91,7 @@ private:
             .hits = pool.hits.address(),
             .paths = pool.paths.address(),
             .shadows = pool.shadows.address(),
+            .interiors = pool.interiors.address(),
             .capacity = pool.capacity,
             .activeLimit = activeLimit,
             .prepare = prepare,
@@ -110,6 +113,7 @@ private:
     move(up, pool.hits, 0, std::span(hits));
     move(up, pool.paths, 0, std::span(paths));
     move(up, pool.shadows, 0, std::span(shadows));
+    move(up, pool.interiors, 0, std::span(interiors));
     move(up, pool.wave, 0, std::span(&wave, 1));
     move(up, pool.render, 0, std::span(&view, 1));
   }

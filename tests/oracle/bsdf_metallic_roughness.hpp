@@ -9,10 +9,15 @@ struct MetallicRoughness {
   glm::dvec3 baseColor{1};
   double metallic = 0;
   double alpha = 1; ///< roughness squared; below gpu::kMirrorAlpha the specular lobe is a delta mirror
-  glm::dvec3 f0{0};
+  glm::dvec3 f0{0}; ///< of all facets but those of glass
   glm::dvec3 f90{0};
   double dielectricF0 = 0; ///< of the coat over the diffuse lobe, its largest channel
   double dielectricF90 = 0;
+  glm::dvec3 glassF0{0};
+  double transmission = 0; ///< share of the dielectric that is glass
+  double outerIor = 1;     ///< on wo's side
+  double innerIor = 1;     ///< on the other side; of thin walls that of the wall
+  bool thinWalled = true;
 };
 
 struct BsdfSample {
@@ -21,12 +26,23 @@ struct BsdfSample {
   double pdfSolidAngle = 0; ///< of all continuous lobes; 0 for delta lobes
   bool delta = false;
   bool valid = false;
+  double eta = 1; ///< index on wi's side over the index on wo's
 };
 
 [[nodiscard]] MetallicRoughness metallicRoughness(const glm::dvec3& baseColor, double metallic, double roughness,
                                                   double ior, double specular, const glm::dvec3& specularColor);
 
-/// f |cos wi| of the continuous lobes, 0 unless both directions lie above the surface.
+/// The same with `transmission` of the dielectric made of glass, seen from its front or its back.
+[[nodiscard]] MetallicRoughness withTransmission(MetallicRoughness m, double transmission, double ior, bool frontFace,
+                                                 bool thinWalled);
+
+/// Reflectance of a facet of glass, per channel. @param cosine between its normal and wo
+[[nodiscard]] glm::dvec3 glassReflectance(const MetallicRoughness& m, double cosine);
+
+/// Whether the transmitting lobe is only ever sampled: smooth surfaces, and refraction by nearly equal indices.
+[[nodiscard]] bool transmitsDelta(const MetallicRoughness& m);
+
+/// f |cos wi| of the continuous lobes for radiance, 0 unless wo lies above the surface; wi.z < 0 is transmission.
 [[nodiscard]] glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 
 /// Density of sampleBsdf's continuous lobes per steradian of wi, with their selection probabilities.

@@ -42,6 +42,7 @@ public:
   /// 10).
   [[nodiscard]] glm::dvec3 trace(Ray ray, RandomStream& random) const {
     glm::dvec3 radiance(0), beta(1);
+    double etaScale = 1; // squared index of the path's medium over that at the camera: radiance / index^2 is kept
     ScatterSample last;
     last.delta = true; // emission seen from the camera has no other way to be found
     for (uint32_t depth = 0;; ++depth) {
@@ -62,9 +63,10 @@ public:
       radiance += beta * directLight(point, hit.triangle, scattering, random);
       last = scattering.sample(random);
       beta *= last.weight;
+      etaScale *= last.eta * last.eta;
       if (beta == glm::dvec3(0)) return radiance;
       if (settings_.maxDepth == kUnlimitedDepth && depth >= kRouletteDepth) {
-        const double survival = std::min(std::max({beta.x, beta.y, beta.z}), 1.0);
+        const double survival = std::min(std::max({beta.x, beta.y, beta.z}) * etaScale, 1.0);
         if (random.next() >= survival) return radiance;
         beta /= survival;
       }

@@ -15,14 +15,19 @@ glm::dmat3 frameAround(glm::dvec3 normal) {
 } // namespace
 
 Scattering::Scattering(const SurfacePoint& point, glm::dvec3 wo)
-    : ng_(point.ng), frame_(frameAround(point.ns)), woLocal_(glm::transpose(frame_) * wo), lit_(aboveBoth(wo)),
-      lambert_(point.material.metallic == 0 && point.material.specular == 0),
+    : ng_(point.ng), frame_(frameAround(point.ns)), woLocal_(glm::transpose(frame_) * wo), lit_(sidesAgree(wo)),
+      lambert_(point.material.metallic == 0 && point.material.specular == 0 && point.material.transmission == 0),
       model_(metallicRoughness(point.material.baseColor, point.material.metallic, point.material.roughness,
-                               point.material.ior, point.material.specular, point.material.specularColor)) {}
+                               point.material.ior, point.material.specular, point.material.specularColor)) {
+  if (point.material.transmission > 0)
+    model_ = withTransmission(model_, point.material.transmission, point.material.ior, point.frontFace,
+                              point.material.thinWalled);
+}
 
 ScatterValue Scattering::evaluate(glm::dvec3 wi) const {
-  if (!lit_ || !aboveBoth(wi)) return {};
+  if (!lit_ || !sidesAgree(wi)) return {};
   const glm::dvec3 wiLocal = glm::transpose(frame_) * wi;
+  if (lambert_ && wiLocal.z <= 0) return {};
   if (lambert_) return {model_.baseColor * (wiLocal.z / kPi), wiLocal.z / kPi};
   return {evalBsdf(model_, woLocal_, wiLocal), pdfBsdf(model_, woLocal_, wiLocal)};
 }
@@ -42,10 +47,11 @@ ScatterSample Scattering::sample(RandomStream& random) const {
   }
   const BsdfSample sample = sampleBsdf(model_, woLocal_, uLobe, u);
   result.wi = frame_ * sample.wiLocal;
-  if (!sample.valid || !aboveBoth(result.wi)) return {};
+  if (!sample.valid || !sidesAgree(result.wi)) return {};
   result.weight = sample.weight;
   result.pdf = sample.pdfSolidAngle;
   result.delta = sample.delta;
+  result.eta = sample.eta;
   return result;
 }
 

@@ -19,9 +19,10 @@ struct ScatterSample {
   glm::dvec3 weight{0}; ///< BSDF dot(ns, wi) / pdf; zero: the path ends
   double pdf = 0;       ///< as in ScatterValue; meaningless where `delta`
   bool delta = false;
+  double eta = 1; ///< index on wi's side over the index on wo's
 };
 
-/// Light is scattered only between directions above the horizons of both ng and ns.
+/// Light is scattered only between directions of which ng and ns agree on which side they are.
 class Scattering {
 public:
   Scattering(const SurfacePoint& point, glm::dvec3 wo);
@@ -30,7 +31,7 @@ public:
   [[nodiscard]] ScatterSample sample(RandomStream& random) const;
 
 private:
-  [[nodiscard]] bool aboveBoth(glm::dvec3 w) const { return glm::dot(ng_, w) > 0 && glm::dot(frame_[2], w) > 0; }
+  [[nodiscard]] bool sidesAgree(glm::dvec3 w) const { return glm::dot(ng_, w) * glm::dot(frame_[2], w) > 0; }
 
   glm::dvec3 ng_;
   glm::dmat3 frame_; ///< columns tangent, bitangent, ns

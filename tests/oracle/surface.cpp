@@ -63,6 +63,10 @@ SurfaceMaterial evaluateMaterial(const Attributes& at) {
   if (source.specularTexture.present()) result.specular *= at.texture(source.specularTexture, Encoding::Linear).w;
   if (source.specularColorTexture.present())
     result.specularColor *= glm::dvec3(at.texture(source.specularColorTexture, Encoding::Srgb));
+  result.transmission = source.ior >= 1 ? source.transmission.factor : 0; // index 0 is infinite: nothing gets in
+  if (source.transmission.texture.present())
+    result.transmission *= at.texture(source.transmission.texture, Encoding::Linear).x;
+  result.thinWalled = source.volume.thickness == 0;
   return result;
 }
 
@@ -104,6 +108,7 @@ SurfacePoint evaluateSurface(const Scene& scene, const Triangle& triangle, const
   point.position = triangle.v0 + hit.b1 * triangle.edge1 + hit.b2 * triangle.edge2;
   const double side = glm::dot(triangle.ng, wo) < 0 ? -1 : 1;
   point.ng = side * triangle.ng;
+  point.frontFace = side > 0;
   point.unlit = at.material.unlit;
   if (point.unlit) {
     point.emission = glm::dvec3(at.baseColor());

@@ -17,6 +17,8 @@ struct SurfaceMaterial {
   double ior = 1.5;
   double specular = 1;
   glm::dvec3 specularColor{1};
+  double transmission = 0;
+  bool thinWalled = true;
 };
 
 struct SurfacePoint {
@@ -24,7 +26,8 @@ struct SurfacePoint {
   glm::dvec3 ng{0};       ///< unit geometric normal, on wo's side
   glm::dvec3 ns{0};       ///< unit shading normal, turned over together with ng
   glm::dvec3 emission{0}; ///< radiance towards wo
-  bool unlit = false;     ///< KHR_materials_unlit: `emission` is the base color and nothing scatters
+  bool frontFace = true;
+  bool unlit = false; ///< KHR_materials_unlit: `emission` is the base color and nothing scatters
   SurfaceMaterial material;
 };
 

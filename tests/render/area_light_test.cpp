@@ -67,6 +67,18 @@ TEST(RenderAreaLight, Test22RandomTrianglesGiveLambertsFormFactor) {
   }
 }
 
+// Lights in a coordinate plane have no rounding error to be offset by: shadow rays must not end on them by rounding.
+TEST(RenderAreaLight, ALightInACoordinatePlaneDoesNotShadowItself) {
+  Scene scene;
+  addPrimitive(scene, quad({-2, 1, 2}, {0, 0, -4}, {4, 0, 0}, addMaterial(scene, lambert(glm::vec3(1)))));
+  addPrimitive(scene, quad({-0.5, 0, 0.5}, {1, 0, 0}, {0, 0, -1}, addMaterial(scene, emitter(glm::vec3(2)))));
+  const Camera camera = lookAt({0.9, 0.5, 0}, {0, 1, 0}, 1e-4);
+  const Image image = renderImage(
+      scene, camera, 8, 8, 4096,
+      {.estimator = {.filter = PixelFilter::Box, .lightSampling = LightSampling::LightsOnly, .maxDepth = 1}});
+  EXPECT_TRUE(pixelMeanIs(image, "R", 2 * 0.2394564705));
+}
+
 TEST(RenderAreaLight, BackOfASingleSidedLightIsDarkAndDoubleSidedLightsShineBothWays) {
   for (const bool doubleSided : {false, true}) {
     Scene scene = squareLightOverFloor(2);

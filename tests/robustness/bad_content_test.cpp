@@ -124,26 +124,12 @@ TEST(BadInput20, MoreThanTheBudgetIsRefusedWithBothNumbers) {
   expectRefused<LimitError>(withImage(gray16), {"/images/0: 32768 more bytes"}, {.maxBufferBytes = 17'000});
 }
 
-TEST(BadInput21, RequiredCompressionIsUnsupported) {
-  for (const std::string name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu"}) {
-    GltfAsset asset = triangleAsset();
-    asset.json["extensionsUsed"] = {name};
-    EXPECT_TRUE(warns(load(asset), name + " is ignored, its fallback is used"));
-    asset.json["extensionsRequired"] = {name};
-    expectRefused<UnsupportedError>(asset, {"/extensionsRequired: ", name});
-  }
-}
-
-TEST(BadInput21, OptionalCompressionWithoutAFallbackIsUnsupported) {
-  GltfAsset draco = triangleAsset();
-  draco.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
-  draco.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
-  EXPECT_EQ(load(draco).instances.size(), 1u) << "with data beside it, that is used";
-  draco.json["accessors"][0].erase("bufferView");
-  expectRefused<UnsupportedError>(draco, {"/meshes/0/primitives/0/extensions: "});
-  GltfAsset meshopt = triangleAsset();
-  meshopt.json["buffers"] = {{{"byteLength", 36}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
-  expectRefused<UnsupportedError>(meshopt, {"/bufferViews/0: ", "EXT_meshopt_compression"});
+TEST(BadInput21, RequiredBasisuIsUnsupported) {
+  GltfAsset asset = triangleAsset();
+  asset.json["extensionsUsed"] = {"KHR_texture_basisu"};
+  EXPECT_TRUE(warns(load(asset), "KHR_texture_basisu is ignored, its fallback is used"));
+  asset.json["extensionsRequired"] = {"KHR_texture_basisu"};
+  expectRefused<UnsupportedError>(asset, {"/extensionsRequired: ", "KHR_texture_basisu"});
 }
 
 TEST(BadInput22, FactorsOutOfRangeAreClamped) {

@@ -7,6 +7,10 @@
 #include <glm/gtc/constants.hpp>
 
 #include "robustness/refusal.hpp"
+#include "scene/draco_decode.hpp"
+#include "scene/meshopt_decode.hpp"
+#include "scene/webp_decode.hpp"
+#include "unit/gltf_compressed.hpp"
 #include "unit/gltf_png.hpp"
 
 using namespace isophote;
@@ -112,11 +116,27 @@ void runMutations(const std::string& original, uint32_t seed, int count, int lea
 }
 
 /// The JSON with the buffer as a GLB chunk, so that swaps hit JSON only.
-std::string glbWithNumberSwapped(const std::string& text, std::mt19937& random) {
-  GltfAsset asset = richAsset();
-  const std::string changed = swapNumber(text, random);
-  asset.json = Json::parse(changed);
-  return asset.glb();
+auto swapsIn(const GltfAsset& original) {
+  return [original](const std::string& text, std::mt19937& random) {
+    GltfAsset asset = original;
+    asset.json = Json::parse(swapNumber(text, random));
+    return asset.glb();
+  };
+}
+
+/// Damages the data alone, so that every case reaches the decoders.
+auto flipsInDataOf(const GltfAsset& original) {
+  return [original](const std::string&, std::mt19937& random) {
+    GltfAsset asset = original;
+    asset.data = flipBytes(asset.data, random);
+    return asset.glb();
+  };
+}
+
+void runCompressedMutations(const GltfAsset& asset, uint32_t seed, int count) {
+  ASSERT_NO_THROW((void)load(asset.glb()));
+  runMutations("", seed, count, 0, flipsInDataOf(asset));
+  runMutations(asset.json.dump(), seed + 1, count, count / 20, swapsIn(asset));
 }
 
 } // namespace
@@ -139,4 +159,23 @@ TEST(Mutation, MissingPiecesAreSurvived) {
   runMutations(richAsset().gltf(), 5, 150, 0, cut);
 }
 
-TEST(Mutation, SwappedNumbersAreSurvived) { runMutations(richAsset().json.dump(), 4, 900, 45, glbWithNumberSwapped); }
+TEST(Mutation, SwappedNumbersAreSurvived) { runMutations(richAsset().json.dump(), 4, 900, 45, swapsIn(richAsset())); }
+
+// Larger meshes have longer streams, in which damage lands in every part of the decoder.
+TEST(Mutation, DamagedDracoIsSurvived) {
+  if (!dracoAvailable()) GTEST_SKIP() << "this build has no Draco";
+  runCompressedMutations(dracoAsset(DracoMethod::Sequential), 6, 300);
+  runCompressedMutations(dracoAsset(DracoMethod::Edgebreaker), 8, 300);
+  runCompressedMutations(dracoAsset(DracoMethod::Edgebreaker, 20), 10, 300);
+}
+
+TEST(Mutation, DamagedMeshoptIsSurvived) {
+  if (!meshoptAvailable()) GTEST_SKIP() << "this build has no meshoptimizer";
+  runCompressedMutations(meshoptAsset(), 12, 500);
+  runCompressedMutations(meshoptAsset("KHR_meshopt_compression", 20), 14, 300);
+}
+
+TEST(Mutation, DamagedWebpIsSurvived) {
+  if (!webpAvailable()) GTEST_SKIP() << "this build has no WebP";
+  runCompressedMutations(webpAsset(), 16, 500);
+}

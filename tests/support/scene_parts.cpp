@@ -48,6 +48,19 @@ Material dielectric(glm::vec3 baseColor, float roughness) {
   return material;
 }
 
+Material thinGlass(float roughness) {
+  Material material = dielectric(glm::vec3(1), roughness);
+  material.transmission.factor = 1;
+  return material;
+}
+
+Material glass(float roughness, float ior) {
+  Material material = thinGlass(roughness);
+  material.ior = ior;
+  material.volume.thickness = 1;
+  return material;
+}
+
 Primitive quad(glm::dvec3 corner, glm::dvec3 edgeU, glm::dvec3 edgeV, uint32_t material) {
   Primitive primitive;
   primitive.positions = {glm::vec3(corner), glm::vec3(corner + edgeU), glm::vec3(corner + edgeU + edgeV),

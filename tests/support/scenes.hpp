@@ -19,6 +19,10 @@ namespace isophote::test {
 [[nodiscard]] Material metal(glm::vec3 baseColor, float roughness);
 /// glTF's dielectric: a specular coat of index 1.5 over a diffuse base.
 [[nodiscard]] Material dielectric(glm::vec3 baseColor, float roughness);
+/// Clear glass that fills closed meshes.
+[[nodiscard]] Material glass(float roughness, float ior = 1.5f);
+/// A clear sheet without thickness.
+[[nodiscard]] Material thinGlass(float roughness);
 
 // Geometry. Every function returns one primitive of material `material`.
 

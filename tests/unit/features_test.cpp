@@ -75,6 +75,10 @@ TEST(Features, EachThingInTheSceneAddsItsFeatureAlone) {
       {"specular", [](Scene& s) { s.materials[0].metallic = 1; }},
       {"unlit", [](Scene& s) { s.materials[0].unlit = true; }},
   };
+  // Glass is made of facets.
+  Scene glass = plainScene();
+  glass.materials[0].transmission.factor = 0.5f;
+  EXPECT_EQ(names(glass), (Names{"specular", "transmission"}));
   for (const auto& [name, change] : cases) {
     Scene scene = plainScene();
     change(scene);

@@ -267,3 +267,34 @@ TEST(GltfMaterials, OnlyMaterialsThatAreDrawnEnterTheScene) {
 TEST(GltfMaterials, UnknownAlphaModesAreRefused) {
   EXPECT_THROW((void)loadMaterial({{"alphaMode", "ADD"}}), SceneError);
 }
+
+// Diffuse 0.8 under a reflectance of 0.2 at normal incidence; glossiness 0.75 is roughness 0.25.
+TEST(GltfMaterials, SpecularGlossinessIsReadAsADielectricOfThatReflectance) {
+  const Scene scene = loadMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 1}}},
+                                    {"extensions",
+                                     {{"KHR_materials_pbrSpecularGlossiness",
+                                       {{"diffuseFactor", {0.8, 0.7, 0.6, 0.5}},
+                                        {"specularFactor", {0.2, 0.3, 0.4}},
+                                        {"glossinessFactor", 0.75}}}}}});
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(m.baseColor, glm::vec4(0.8f, 0.7f, 0.6f, 0.5f));
+  EXPECT_EQ(m.metallic, 0);
+  EXPECT_EQ(m.roughness, 0.25f);
+  EXPECT_EQ(m.ior, 0);
+  EXPECT_EQ(m.specular, 1);
+  EXPECT_EQ(m.specularColor, glm::vec3(0.2f, 0.3f, 0.4f));
+}
+
+// Alpha 51 is glossiness 0.2 times 0.5: roughness 0.9.
+TEST(GltfMaterials, GlossinessOfATextureBecomesRoughness) {
+  GltfAsset asset = texturedTriangleAsset();
+  asset.add("textures", {{"source", asset.addImage(pngPixel(9, 8, 7, 51))}});
+  asset.material()["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+      {"glossinessFactor", 0.5}, {"specularGlossinessTexture", {{"index", 0}}}};
+  const Scene scene = load(asset);
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(m.roughness, 1);
+  EXPECT_EQ(redOf(scene, m.specularColorTexture), 9);
+  const Texture& roughness = scene.textures.at(static_cast<size_t>(m.metallicRoughnessTexture.texture));
+  EXPECT_EQ(std::to_integer<int>(scene.images.at(roughness.image).pixels.at(1)), 230); // 0.9 * 255 rounded
+}

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "isophote/scene.hpp"
 
@@ -11,6 +13,7 @@ namespace isophote {
 
 struct LoadOptions {
   std::optional<uint32_t> scene;        ///< index; absent: the asset's default, else 0
+  std::optional<std::string> variant;   ///< name of a KHR_materials_variants variant; absent: the default materials
   bool allowExternal = false;           ///< let URIs leave the asset's folder
   uint64_t maxImagePixels = 1ull << 28; ///< per image, checked before decoding
   uint64_t maxBufferBytes = 8ull << 30; ///< all buffers together
@@ -18,8 +21,13 @@ struct LoadOptions {
 };
 
 /// Reads a .gltf or .glb file and validates every index, byte range and number in it.
-/// @throws SceneError (broken), UnsupportedError (unknown required extension), LimitError (too large)
+/// @throws SceneError (broken), UnsupportedError (unknown required extension), LimitError (too large), UsageError (no
+/// such variant)
 [[nodiscard]] Scene loadGltf(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// The names that LoadOptions::variant chooses from, in the asset's order.
+/// @throws SceneError, UnsupportedError, LimitError
+[[nodiscard]] std::vector<std::string> gltfVariants(const std::filesystem::path& file);
 
 /// Reads an equirectangular Radiance .hdr or OpenEXR map into an Environment.
 /// NaN and negative pixels are set to 0, infinite ones to the largest finite value, each counted in a warning.

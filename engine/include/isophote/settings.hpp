@@ -11,6 +11,7 @@ namespace isophote {
 enum class SamplerKind : uint32_t { Sobol, Independent };
 enum class PixelFilter : uint32_t { Box, Gaussian, BlackmanHarris };
 enum class LightSampling : uint32_t { Mis, LightsOnly, BsdfOnly };
+enum class LightSelection : uint32_t { Uniform, Power, Bvh };
 enum class MisHeuristic : uint32_t { Balance, Power };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
@@ -20,6 +21,7 @@ struct EstimatorSettings {
   SamplerKind sampler = SamplerKind::Sobol;
   PixelFilter filter = PixelFilter::BlackmanHarris;
   LightSampling lightSampling = LightSampling::Mis;
+  LightSelection lightSelection = LightSelection::Bvh; ///< Bvh: by power where the scene has few lights
   MisHeuristic misHeuristic = MisHeuristic::Power;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;

@@ -7,13 +7,18 @@ namespace isophote {
 using gpu::Buffer;
 using gpu::Memory;
 
-PathPool::PathPool(const Device& device, uint32_t pathCount, bool withShadows)
+PathPool::PathPool(const Device& device, uint32_t pathCount, const PathPoolParts& parts)
     : capacity(pathCount),
       queues(device, uint64_t{pathCount} * gpu::kQueueCount * sizeof(uint32_t), Memory::Device, "pool.queues"),
       rays(device, uint64_t{pathCount} * sizeof(gpu::RayState), Memory::Device, "pool.rays"),
       hits(device, uint64_t{pathCount} * sizeof(gpu::HitState), Memory::Device, "pool.hits"),
       paths(device, uint64_t{pathCount} * sizeof(gpu::PathState), Memory::Device, "pool.paths"),
-      shadows(device, withShadows ? uint64_t{pathCount} * sizeof(gpu::ShadowState) : 0, Memory::Device, "pool.shadows"),
+      shadows(device, parts.shadows ? uint64_t{pathCount} * sizeof(gpu::ShadowState) : 0, Memory::Device,
+              "pool.shadows"),
+      interiors(device, parts.interiors ? uint64_t{pathCount} * sizeof(gpu::InteriorState) : 0, Memory::Device,
+                "pool.interiors"),
+      receivers(device, parts.receivers ? uint64_t{pathCount} * sizeof(gpu::LightReceiver) : 0, Memory::Device,
+                "pool.receivers"),
       wave(device, sizeof(gpu::WaveState), Memory::Device, "pool.wave"),
       render(device, sizeof(gpu::RenderView), Memory::Device, "pool.render"),
       filterTable(device, gpu::kFilterTableSize * sizeof(float), Memory::Device, "pool.filterTable"),
@@ -32,7 +37,8 @@ void PathPool::reset(const Device& device) const {
 
 std::vector<BufferUse> PathPool::buffers() const {
   std::vector<BufferUse> uses;
-  for (const Buffer* buffer : {&queues, &rays, &hits, &paths, &shadows, &wave, &render, &filterTable, &readback}) {
+  for (const Buffer* buffer :
+       {&queues, &rays, &hits, &paths, &shadows, &interiors, &receivers, &wave, &render, &filterTable, &readback}) {
     if (buffer->bytes() != 0) uses.push_back({buffer->name(), buffer->bytes()});
   }
   return uses;
@@ -45,7 +51,9 @@ uint64_t PathPool::bytes() const {
 }
 
 uint64_t PathPool::bytesPerPath() const {
-  return (queues.bytes() + rays.bytes() + hits.bytes() + paths.bytes() + shadows.bytes()) / capacity;
+  return (queues.bytes() + rays.bytes() + hits.bytes() + paths.bytes() + shadows.bytes() + interiors.bytes() +
+          receivers.bytes()) /
+         capacity;
 }
 
 } // namespace isophote

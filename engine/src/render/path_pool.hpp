@@ -10,19 +10,28 @@
 
 namespace isophote {
 
+/// The state that only some scenes need.
+struct PathPoolParts {
+  bool shadows = false;
+  bool interiors = false;
+  bool receivers = false;
+};
+
 struct PathPool {
   uint32_t capacity = 0;
   gpu::Buffer queues;
   gpu::Buffer rays;
   gpu::Buffer hits;
   gpu::Buffer paths;
-  gpu::Buffer shadows; ///< null where no light is sampled
-  gpu::Buffer wave;    ///< WaveState
-  gpu::Buffer render;  ///< RenderView
+  gpu::Buffer shadows;   ///< null where no light is sampled
+  gpu::Buffer interiors; ///< null where nothing transmits
+  gpu::Buffer receivers; ///< null where the choice of a light does not depend on them
+  gpu::Buffer wave;      ///< WaveState
+  gpu::Buffer render;    ///< RenderView
   gpu::Buffer filterTable;
   gpu::Buffer readback; ///< WaveState on the host, copied at the end of each submit
 
-  PathPool(const Device& device, uint32_t paths, bool withShadows);
+  PathPool(const Device& device, uint32_t paths, const PathPoolParts& parts);
 
   /// All slots free, counters zero.
   void reset(const Device& device) const;

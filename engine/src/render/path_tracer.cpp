@@ -78,6 +78,11 @@ struct PathTracer::Impl {
     const bool workLeft = accepting && last.nextWork < workEnd;
     return !workLeft && last.counts[gpu::kQueueFree] == pool->capacity;
   }
+  /// Whether the weight of emission that a path finds depends on where light was sampled before.
+  [[nodiscard]] bool keepsReceivers() const {
+    return scene.features().has(Feature::kHasLightTree) && scene.features().has(Feature::kHasEmissiveTriangles) &&
+           estimator.lightSelection == LightSelection::Bvh && estimator.lightSampling != LightSampling::BsdfOnly;
+  }
   [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const;
 };
 
@@ -101,7 +106,10 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
-    pool.emplace(device, paths, kernels->intersectShadow.has_value());
+    pool.emplace(device, paths,
+                 PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                               .interiors = features.has(Feature::kHasTransmission),
+                               .receivers = keepsReceivers()});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
@@ -124,6 +132,8 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .hits = pool->hits.address(),
           .paths = pool->paths.address(),
           .shadows = pool->shadows.address(),
+          .interiors = pool->interiors.address(),
+          .receivers = pool->receivers.address(),
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,
           .prepare = prepare,

@@ -34,7 +34,7 @@ gpu::Kernel makeKernel(const Device& device, const GpuScene& scene, RayQuestion 
 
 RayBatch::RayBatch(const Device& device, const GpuScene& scene, const RayList& list, const gpu::KernelSource* source)
     : device_(device), scene_(scene), question_(list.question), count_(static_cast<uint32_t>(list.rays.size())),
-      pool_(device, std::max(count_, 1u), true), kernel_(makeKernel(device, scene, list.question, source)),
+      pool_(device, std::max(count_, 1u), {.shadows = true}), kernel_(makeKernel(device, scene, list.question, source)),
       commands_(device, 1, "rays") {
   const glm::dvec3 world = scene.impl().worldOrigin;
   const auto local = [&](const Ray& ray) { return glm::vec3(glm::dvec3(ray.origin) - world); };

@@ -31,6 +31,7 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   }
   constants.push_back({kSampler, static_cast<uint32_t>(settings.sampler)});
   constants.push_back({kLightSampling, static_cast<uint32_t>(settings.lightSampling)});
+  constants.push_back({kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
   constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
   constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
   return constants;

@@ -24,6 +24,9 @@ float smallestGreen(const ImageData& image) {
 /// that Vulkan allows), so that the feature is never missing on the device.
 constexpr float kFilteringMargin = 1.01f;
 
+/// Up to this many lights are chosen by power alone: the tree's descent costs more than it gains (docs/lights.md).
+constexpr uint64_t kFewLights = 16;
+
 bool canBeMirror(const Scene& scene, const Material& material) {
   const float limit = std::sqrt(gpu::kMirrorAlpha) * kFilteringMargin;
   if (material.roughness < limit) return true;
@@ -46,9 +49,29 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
   }
   // Factors multiply textures of at most 1, so a factor of 0 rules the lobe out. A dielectric with ior 1 keeps its
   // grazing reflection (f90 = specular).
-  if (material.metallic == 0 && material.specular == 0) return;
+  const bool transmits = material.transmission.factor > 0 && material.ior >= 1 &&
+                         (material.metallic < 1 || material.metallicRoughnessTexture.present());
+  if (transmits) features.add(Feature::kHasTransmission);
+  if (material.metallic == 0 && material.specular == 0 && !transmits) return;
   features.add(Feature::kHasSpecular);
   if (canBeMirror(scene, material)) features.add(Feature::kHasMirror);
+}
+
+/// Lights with a place: emissive triangles of all instances, point and spot lights.
+uint64_t placedLights(const Scene& scene) {
+  std::vector<uint64_t> ofMesh;
+  for (const Mesh& mesh : scene.meshes) {
+    uint64_t triangles = 0;
+    for (const Primitive& primitive : mesh.primitives) {
+      const Material& material = scene.materials[primitive.material];
+      if (material.emissive != glm::vec3(0) && !material.unlit) triangles += primitive.indices.size() / 3;
+    }
+    ofMesh.push_back(triangles);
+  }
+  uint64_t count = 0;
+  for (const Instance& instance : scene.instances) count += ofMesh[instance.mesh];
+  for (const PunctualLight& light : scene.lights) count += light.kind == LightKind::Directional ? 0 : 1;
+  return count;
 }
 
 } // namespace
@@ -93,6 +116,7 @@ FeatureSet sceneFeatures(const Scene& scene) {
     if (materialUsed[i]) addMaterial(scene, scene.materials[i], features);
   }
   if (!scene.lights.empty()) features.add(Feature::kHasPunctualLights);
+  if (placedLights(scene) > kFewLights) features.add(Feature::kHasLightTree);
   if (scene.environment) features.add(Feature::kHasEnvironment);
   return features;
 }

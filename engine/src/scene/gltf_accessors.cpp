@@ -209,6 +209,15 @@ Accessors::Accessors(Document& document, const Buffers& buffers) : document_(doc
   }
 }
 
+void Accessors::replaceData(uint32_t accessor, Bytes data) {
+  Bytes& owned = replaced_[accessor];
+  owned = std::move(data);
+  AccessorLayout& layout = layouts_[accessor];
+  layout.data = owned;
+  layout.stride = layout.elementBytes;
+  layout.hasStride = false;
+}
+
 void Accessors::claim(uint32_t accessor, uint64_t elementBytes) const {
   const std::optional<uint64_t> bytes = checkedMultiply(layouts_[accessor].count, elementBytes);
   document_.claim(bytes.value_or(UINT64_MAX), accessorPointer(accessor));

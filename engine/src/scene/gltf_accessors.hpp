@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ public:
 
   [[nodiscard]] const AccessorLayout& layout(uint32_t accessor) const { return layouts_[accessor]; }
 
+  /// Puts decoded elements, tightly packed, in place of what the buffer view holds, until the next call for `accessor`.
+  void replaceData(uint32_t accessor, Bytes data);
+
   /// Elements as float vectors; normalized integers as KHR_mesh_quantization and glTF section 3.6.2.2 say.
   ///
   /// `Vector` is float or a glm float vector or matrix with as many components as the accessor, which the caller has
@@ -69,6 +73,7 @@ private:
 
   Document& document_;
   std::vector<AccessorLayout> layouts_;
+  std::map<uint32_t, Bytes> replaced_;
 };
 
 /// `/accessors/N`

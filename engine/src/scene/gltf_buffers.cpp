@@ -6,6 +6,7 @@
 
 #include "isophote/error.hpp"
 #include "scene/checked_math.hpp"
+#include "scene/gltf_meshopt.hpp"
 #include "scene/uri.hpp"
 
 namespace isophote::gltf {
@@ -21,12 +22,6 @@ void checkTotal(const Document& document) {
     }
     total = *sum;
   }
-}
-
-/// The stand-in of EXT_meshopt_compression for a buffer that only its decoder would fill.
-bool isEmptyFallback(const Json& buffer) {
-  const Json* meshopt = extension(buffer, "EXT_meshopt_compression");
-  return !buffer.contains("uri") && meshopt && boolOr(*meshopt, "fallback", false);
 }
 
 std::span<const std::byte> loadBuffer(const Document& document, size_t index, Bytes& storage) {
@@ -54,31 +49,48 @@ std::span<const std::byte> loadBuffer(const Document& document, size_t index, By
 
 } // namespace
 
-Buffers::Buffers(const Document& document) {
+Buffers::Buffers(Document& document) {
+  loadBuffers(document);
+  const Json& views = arrayOrEmpty(document.root, "bufferViews");
+  for (size_t i = 0; i < views.size(); ++i) {
+    views_.push_back(loadView(document, views[i], fmt::format("/bufferViews/{}", i)));
+  }
+}
+
+void Buffers::loadBuffers(const Document& document) {
   checkTotal(document);
   const Json& buffers = arrayOrEmpty(document.root, "buffers");
   owned_.resize(buffers.size());
   buffers_.resize(buffers.size());
   for (size_t i = 0; i < buffers.size(); ++i) {
-    if (!isEmptyFallback(buffers[i])) buffers_[i] = loadBuffer(document, i, owned_[i]);
+    if (!isEmptyMeshoptFallback(buffers[i])) buffers_[i] = loadBuffer(document, i, owned_[i]);
   }
-  const Json& views = arrayOrEmpty(document.root, "bufferViews");
-  for (size_t i = 0; i < views.size(); ++i) {
-    const uint32_t buffer = *indexOf(views[i], "buffer");
-    const uint64_t offset = integerOr(views[i], "byteOffset", 0);
-    const uint64_t length = integerOr(views[i], "byteLength", 0);
-    if (isEmptyFallback(buffers[buffer])) {
-      throw UnsupportedError(document.file, fmt::format("/bufferViews/{}", i),
-                             "uncompressed data beside EXT_meshopt_compression, which this build does not offer");
-    }
-    if (!rangeFits(offset, length, buffers_[buffer].size())) {
-      document.fail(fmt::format("/bufferViews/{}", i),
-                    fmt::format("a range inside the {} bytes of buffer {}, found offset {} and length {} "
-                                "(BUFFER_VIEW_TOO_LONG)",
-                                buffers_[buffer].size(), buffer, offset, length));
-    }
-    views_.push_back(buffers_[buffer].subspan(offset, length));
+}
+
+std::span<const std::byte> Buffers::range(const Document& document, const Json& json,
+                                          const std::string& pointer) const {
+  const uint32_t buffer = *indexOf(json, "buffer");
+  const uint64_t offset = integerOr(json, "byteOffset", 0);
+  const uint64_t length = integerOr(json, "byteLength", 0);
+  if (!rangeFits(offset, length, buffers_[buffer].size())) {
+    document.fail(pointer, fmt::format("a range inside the {} bytes of buffer {}, found offset {} and length {} "
+                                       "(BUFFER_VIEW_TOO_LONG)",
+                                       buffers_[buffer].size(), buffer, offset, length));
   }
+  return buffers_[buffer].subspan(offset, length);
+}
+
+std::span<const std::byte> Buffers::loadView(Document& document, const Json& view, const std::string& pointer) {
+  const MeshoptExtension meshopt = meshoptExtension(view, pointer);
+  if (!meshopt.json) return range(document, view, pointer);
+  const std::span<const std::byte> packed = range(document, *meshopt.json, meshopt.pointer);
+  if (!offersMeshopt(*meshopt.json, packed)) {
+    const bool hasFallback = !isEmptyMeshoptFallback(document.root.at("buffers")[*indexOf(view, "buffer")]);
+    if (hasFallback) return range(document, view, pointer);
+    throw UnsupportedError(document.file, meshopt.pointer,
+                           "uncompressed data beside compression of a kind that this build does not offer");
+  }
+  return unpacked_.emplace_back(unpackMeshopt(document, view, meshopt, packed));
 }
 
 } // namespace isophote::gltf

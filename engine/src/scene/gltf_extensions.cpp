@@ -1,31 +1,68 @@
 #include "scene/gltf_extensions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "isophote/error.hpp"
+#include "scene/draco_decode.hpp"
+#include "scene/meshopt_decode.hpp"
+#include "scene/webp_decode.hpp"
 
 namespace isophote::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 9> kModeled{
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_unlit",
-    "KHR_mesh_quantization",   "KHR_node_visibility",    "KHR_texture_transform"};
+constexpr std::string_view kModeled[] = {
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+};
 
-/// Extensions that carry a plain glTF fallback beside their own data; the fallback is used.
-constexpr std::array<std::string_view, 5> kFallback{"EXT_meshopt_compression", "EXT_texture_webp",
-                                                    "KHR_draco_mesh_compression", "KHR_meshopt_compression",
-                                                    "KHR_texture_basisu"};
+/// Extensions that say nothing about an image.
+constexpr std::string_view kWithoutEffect[] = {
+    "KHR_animation_pointer", // targets of animations; the scene is in its static pose
+    "KHR_xmp_json_ld",       // metadata
+};
 
-bool isModeled(const std::string& name) { return std::find(kModeled.begin(), kModeled.end(), name) != kModeled.end(); }
+/// Extensions that carry a plain glTF fallback beside their own data; without a decoder the fallback is used.
+struct Compression {
+  std::string_view name;
+  bool (*available)();
+};
+bool never() { return false; }
+constexpr Compression kCompressions[] = {
+    {"EXT_meshopt_compression", meshoptAvailable},
+    {"EXT_texture_webp", webpAvailable},
+    {"KHR_draco_mesh_compression", dracoAvailable},
+    {"KHR_meshopt_compression", meshoptAvailable},
+    {"KHR_texture_basisu", never},
+};
 
-bool hasFallback(const std::string& name) {
-  return std::find(kFallback.begin(), kFallback.end(), name) != kFallback.end();
+const Compression* findCompression(const std::string& name) {
+  const auto* found = std::find_if(std::begin(kCompressions), std::end(kCompressions),
+                                   [&](const Compression& compression) { return compression.name == name; });
+  return found == std::end(kCompressions) ? nullptr : found;
+}
+
+bool isIn(std::span<const std::string_view> list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+bool isModeled(const std::string& name) {
+  const Compression* compression = findCompression(name);
+  return compression ? compression->available() : isIn(kModeled, name) || isIn(kWithoutEffect, name);
 }
 
 std::vector<std::string> names(const Document& document, const char* list) {
@@ -53,8 +90,8 @@ void checkExtensions(Document& document) {
                            fmt::format("extensions that this build offers, not {}", fmt::join(missing, ", ")));
   }
   for (const std::string& name : extensionsIgnored(document)) {
-    document.warnings.add(hasFallback(name) ? fmt::format("extension {} is ignored, its fallback is used", name)
-                                            : fmt::format("extension {} is ignored", name));
+    document.warnings.add(findCompression(name) ? fmt::format("extension {} is ignored, its fallback is used", name)
+                                                : fmt::format("extension {} is ignored", name));
   }
 }
 

@@ -17,6 +17,7 @@
 #include "scene/gltf_meshes.hpp"
 #include "scene/gltf_nodes.hpp"
 #include "scene/gltf_textures.hpp"
+#include "scene/gltf_variants.hpp"
 
 namespace isophote {
 namespace {
@@ -45,7 +46,7 @@ void addLightsAndCameras(gltf::Document& document, const std::vector<gltf::Place
 Scene load(const std::filesystem::path& file, const LoadOptions& options) {
   gltf::Document document = gltf::openDocument(file, options);
   const gltf::Buffers buffers(document);
-  const gltf::Accessors accessors(document, buffers);
+  gltf::Accessors accessors(document, buffers);
   const gltf::NodeGraph graph(document);
   const std::vector<gltf::PlacedNode> nodes = graph.place(graph.sceneRoots());
 
@@ -55,7 +56,8 @@ Scene load(const std::filesystem::path& file, const LoadOptions& options) {
   scene.extensionsIgnored = gltf::extensionsIgnored(document);
   gltf::Textures textures(document, buffers);
   gltf::MaterialTable materials(document, textures);
-  gltf::Meshes meshes(document, accessors, materials);
+  const gltf::Variants variants(document);
+  gltf::Meshes meshes(document, buffers, accessors, materials, variants);
   gltf::addInstances(document, accessors, graph, nodes, meshes, scene);
   addLightsAndCameras(document, nodes, scene);
   if (!gltf::arrayOrEmpty(document.root, "animations").empty()) {
@@ -66,6 +68,10 @@ Scene load(const std::filesystem::path& file, const LoadOptions& options) {
 }
 
 } // namespace
+
+std::vector<std::string> gltfVariants(const std::filesystem::path& file) {
+  return gltf::Variants(gltf::openDocument(file, {})).names();
+}
 
 Scene loadGltf(const std::filesystem::path& file, const LoadOptions& options) {
   try {

@@ -3,6 +3,8 @@
 
 #include <cfloat>
 
+#include "scene/gltf_specular_glossiness.hpp"
+
 namespace isophote::gltf {
 namespace {
 
@@ -80,6 +82,7 @@ void readMaterialExtensions(MaterialProperties& properties, const Json& json, Ma
   const auto read = [&](const char* name, auto&& function, auto& target) {
     if (const Json* found = extension(json, name)) function(properties, *found, target);
   };
+  read("KHR_materials_pbrSpecularGlossiness", readSpecularGlossiness, material);
   read("KHR_materials_ior", readIor, material);
   read("KHR_materials_specular", readSpecular, material);
   read("KHR_materials_clearcoat", readClearcoat, material.clearcoat);

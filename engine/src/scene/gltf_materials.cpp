@@ -8,6 +8,7 @@
 
 #include "scene/gltf_material_extensions.hpp"
 #include "scene/gltf_material_properties.hpp"
+#include "scene/gltf_specular_glossiness.hpp"
 
 namespace isophote::gltf {
 namespace {
@@ -111,8 +112,13 @@ uint32_t MaterialTable::add(std::optional<uint32_t> material, bool withNormalTex
   found->second = static_cast<uint32_t>(scene.materials.size());
   Material result = material ? materials_[*material] : Material{};
   if (!withNormalTexture) result.normalTexture = {};
+  const std::optional<float> glossiness =
+      material ? texturedGlossiness(arrayOrEmpty(document_.root, "materials")[*material]) : std::nullopt;
   for (TextureRef* ref : textureRefs(result)) {
-    if (ref->present()) ref->texture = textures_.use(static_cast<uint32_t>(ref->texture), scene);
+    if (!ref->present()) continue;
+    const auto index = static_cast<uint32_t>(ref->texture);
+    const bool holdsGlossiness = glossiness && ref == &result.metallicRoughnessTexture;
+    ref->texture = holdsGlossiness ? textures_.useGlossiness(index, *glossiness, scene) : textures_.use(index, scene);
   }
   scene.materials.push_back(std::move(result));
   return found->second;

@@ -20,7 +20,8 @@ namespace isophote::gltf {
 /// Puts the materials that are drawn into the scene, in order of first use.
 class MaterialTable {
 public:
-  MaterialTable(Document& document, Textures& textures) : materials_(readMaterials(document)), textures_(textures) {}
+  MaterialTable(Document& document, Textures& textures)
+      : document_(document), materials_(readMaterials(document)), textures_(textures) {}
 
   /// The index in Scene::materials of a glTF material, or of the default material. Decodes its images on first use.
   [[nodiscard]] uint32_t use(std::optional<uint32_t> material, Scene& scene);
@@ -31,6 +32,7 @@ public:
 private:
   [[nodiscard]] uint32_t add(std::optional<uint32_t> material, bool withNormalTexture, Scene& scene);
 
+  const Document& document_;
   std::vector<Material> materials_;
   std::map<std::pair<std::optional<uint32_t>, bool>, uint32_t> used_; ///< (glTF index, with normal texture)
   Textures& textures_;

@@ -9,6 +9,7 @@
 
 #include "isophote/error.hpp"
 #include "scene/gltf_attributes.hpp"
+#include "scene/gltf_draco.hpp"
 #include "scene/tangents.hpp"
 #include "scene/triangle_list.hpp"
 #include "scene/vertex_repair.hpp"
@@ -22,17 +23,6 @@ constexpr uint64_t kTriangleMode = 4; ///< lower modes are points and lines
 uint32_t restartValue(ComponentType type) {
   if (type == ComponentType::UInt8) return 0xff;
   return type == ComponentType::UInt16 ? 0xffff : 0xffffffff;
-}
-
-/// A Draco primitive whose accessors are empty: nothing to fall back to.
-void refuseDracoOnly(const Document& document, const Accessors& accessors, const Json& json,
-                     const std::string& pointer) {
-  if (!extension(json, "KHR_draco_mesh_compression")) return;
-  const AccessorLayout& positions = accessors.layout(*indexOf(json.at("attributes"), "POSITION"));
-  if (positions.data.empty() && positions.sparseIndices.empty()) {
-    throw UnsupportedError(document.file, pointer + "/extensions",
-                           "uncompressed data beside KHR_draco_mesh_compression, which this build does not offer");
-  }
 }
 
 } // namespace
@@ -67,20 +57,30 @@ std::optional<Primitive> Meshes::readPrimitive(const Json& json, const std::stri
     document_.warnings.add("a primitive without POSITION is skipped", pointer);
     return std::nullopt;
   }
-  refuseDracoOnly(document_, accessors_, json, pointer);
+  std::optional<std::vector<uint32_t>> decoded = decodeDraco(document_, buffers_, accessors_, json, pointer);
   Attributes attributes = readAttributes(document_, accessors_, json, pointer);
   Primitive& primitive = attributes.vertices;
-  const std::vector<uint32_t> indices = readIndices(json, pointer, primitive.positions.size());
-  primitive.indices = triangleList(indices, static_cast<Topology>(mode));
-  if (mode == kTriangleMode && indices.size() % 3 != 0) {
-    document_.warnings.add("indices after the last whole triangle are left out", pointer);
+  if (decoded) {
+    requireIndicesBelow(primitive.positions.size(), *decoded, pointer + "/extensions/KHR_draco_mesh_compression");
+    primitive.indices = std::move(*decoded);
+  } else {
+    primitive.indices = readTriangles(json, pointer, primitive.positions.size());
   }
   applyMorphTargets(document_, accessors_, json, pose, pointer, primitive);
   applySkin(document_, pose, pointer, attributes);
   clean(primitive, pointer);
   if (primitive.indices.empty()) return std::nullopt;
-  assignMaterial(indexOf(json, "material"), pointer, primitive, scene);
+  assignMaterial(variants_.material(json), pointer, primitive, scene);
   return std::move(primitive);
+}
+
+std::vector<uint32_t> Meshes::readTriangles(const Json& json, const std::string& pointer, uint64_t vertexCount) {
+  const uint64_t mode = integerOr(json, "mode", kTriangleMode);
+  const std::vector<uint32_t> indices = readIndices(json, pointer, vertexCount);
+  if (mode == kTriangleMode && indices.size() % 3 != 0) {
+    document_.warnings.add("indices after the last whole triangle are left out", pointer);
+  }
+  return triangleList(indices, static_cast<Topology>(mode));
 }
 
 std::vector<uint32_t> Meshes::readIndices(const Json& json, const std::string& pointer, uint64_t vertexCount) {
@@ -99,14 +99,18 @@ std::vector<uint32_t> Meshes::readIndices(const Json& json, const std::string& p
                                          "(MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT)");
   }
   std::vector<uint32_t> indices = accessors_.readUnsigned(*accessor);
+  requireIndicesBelow(vertexCount, indices, accessorPointer(*accessor), restartValue(layout.componentType));
+  return indices;
+}
+
+void Meshes::requireIndicesBelow(uint64_t vertexCount, const std::vector<uint32_t>& indices, const std::string& pointer,
+                                 std::optional<uint32_t> restart) const {
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] < vertexCount) continue;
-    const bool isRestart = indices[i] == restartValue(layout.componentType);
-    document_.fail(accessorPointer(*accessor),
+    document_.fail(pointer,
                    fmt::format("indices below the {} vertices, found {} at place {} ({})", vertexCount, indices[i], i,
-                               isRestart ? "ACCESSOR_INDEX_PRIMITIVE_RESTART" : "ACCESSOR_INDEX_OOB"));
+                               indices[i] == restart ? "ACCESSOR_INDEX_PRIMITIVE_RESTART" : "ACCESSOR_INDEX_OOB"));
   }
-  return indices;
 }
 
 void Meshes::clean(Primitive& primitive, const std::string& pointer) {

@@ -62,6 +62,7 @@ const Shape kSamplerIndex = indexInto("/samplers");
 const Shape kSceneIndex = indexInto("/scenes");
 const Shape kSkinIndex = indexInto("/skins");
 const Shape kTextureIndex = indexInto("/textures");
+const Shape kVariantIndex = indexInto("/extensions/KHR_materials_variants/variants");
 
 const Shape kFloat2 = arrayOf(kFloat, 2, 2);
 const Shape kFloat3 = arrayOf(kFloat, 3, 3);
@@ -77,7 +78,17 @@ const Shape kJoints = arrayOf(kNodeIndex, 1);
 const Shape kAttributes = mapOf(kAccessorIndex);
 const Shape kMorphTargets = arrayOf(kAttributes);
 const Shape kMode{.kind = Kind::Integer, .choices = {0, 1, 2, 3, 4, 5, 6}};
+const Shape kUniqueId{.kind = Kind::Integer, .lower = 0, .upper = 0xffffffff};
+const Shape kDracoAttributes = mapOf(kUniqueId);
+const Shape kDraco = object({{"bufferView", &kViewIndex, true}, {"attributes", &kDracoAttributes, true}});
+const Shape kVariantIndices = arrayOf(kVariantIndex);
+const Shape kVariantMapping = object({{"material", &kMaterialIndex, true}, {"variants", &kVariantIndices, true}});
+const Shape kVariantMappings = arrayOf(kVariantMapping);
+const Shape kPrimitiveVariants = object({{"mappings", &kVariantMappings, true}});
+const Shape kPrimitiveExtensions =
+    object({{"KHR_draco_mesh_compression", &kDraco}, {"KHR_materials_variants", &kPrimitiveVariants}});
 const Shape kPrimitive = object({{"attributes", &kAttributes, true},
+                                 {"extensions", &kPrimitiveExtensions},
                                  {"indices", &kAccessorIndex},
                                  {"material", &kMaterialIndex},
                                  {"mode", &kMode},
@@ -100,12 +111,23 @@ const Shape kAccessor = object({{"bufferView", &kViewIndex},
                                 {"sparse", &kSparse},
                                 {"type", &kString, true}});
 const Shape kStride{.kind = Kind::Integer, .lower = 4, .upper = 252};
+const Shape kMeshoptView = object({{"buffer", &kBufferIndex, true},
+                                   {"byteOffset", &kUnsigned},
+                                   {"byteLength", &kPositive, true},
+                                   {"byteStride", &kPositive, true},
+                                   {"count", &kPositive, true},
+                                   {"mode", &kString, true},
+                                   {"filter", &kString}});
+const Shape kViewExtensions =
+    object({{"EXT_meshopt_compression", &kMeshoptView}, {"KHR_meshopt_compression", &kMeshoptView}});
 const Shape kBufferView = object({{"buffer", &kBufferIndex, true},
                                   {"byteOffset", &kUnsigned},
                                   {"byteLength", &kPositive, true},
-                                  {"byteStride", &kStride}});
+                                  {"byteStride", &kStride},
+                                  {"extensions", &kViewExtensions}});
 const Shape kMeshoptBuffer = object({{"fallback", &kBool}});
-const Shape kBufferExtensions = object({{"EXT_meshopt_compression", &kMeshoptBuffer}});
+const Shape kBufferExtensions =
+    object({{"EXT_meshopt_compression", &kMeshoptBuffer}, {"KHR_meshopt_compression", &kMeshoptBuffer}});
 const Shape kBuffer = object({{"uri", &kString}, {"byteLength", &kPositive, true}, {"extensions", &kBufferExtensions}});
 
 // Nodes
@@ -178,12 +200,18 @@ const Shape kVolume = object({{"thicknessFactor", &kFloat},
 const Shape kVolumeScatter = object({{"multiscatterColor", &kFloat3}, {"scatterAnisotropy", &kFloat}});
 const Shape kDispersion = object({{"dispersion", &kFloat}});
 const Shape kUnlit = object({});
+const Shape kSpecularGlossiness = object({{"diffuseFactor", &kFloat4},
+                                          {"diffuseTexture", &kTextureInfo},
+                                          {"specularFactor", &kFloat3},
+                                          {"glossinessFactor", &kFloat},
+                                          {"specularGlossinessTexture", &kTextureInfo}});
 const Shape kMaterialExtensions = object({{"KHR_materials_anisotropy", &kAnisotropy},
                                           {"KHR_materials_clearcoat", &kClearcoat},
                                           {"KHR_materials_diffuse_transmission", &kDiffuseTransmission},
                                           {"KHR_materials_dispersion", &kDispersion},
                                           {"KHR_materials_emissive_strength", &kEmissiveStrength},
                                           {"KHR_materials_ior", &kIor},
+                                          {"KHR_materials_pbrSpecularGlossiness", &kSpecularGlossiness},
                                           {"KHR_materials_iridescence", &kIridescence},
                                           {"KHR_materials_sheen", &kSheen},
                                           {"KHR_materials_specular", &kSpecular},
@@ -230,7 +258,11 @@ const Shape kLight = object({{"name", &kString},
                              {"spot", &kSpot}});
 const Shape kLights = arrayOf(kLight);
 const Shape kLightsExtension = object({{"lights", &kLights, true}});
-const Shape kRootExtensions = object({{"KHR_lights_punctual", &kLightsExtension}});
+const Shape kVariant = object({{"name", &kString, true}});
+const Shape kVariantList = arrayOf(kVariant, 1);
+const Shape kVariants = object({{"variants", &kVariantList, true}});
+const Shape kRootExtensions =
+    object({{"KHR_lights_punctual", &kLightsExtension}, {"KHR_materials_variants", &kVariants}});
 
 // The root
 const Shape kAccessors = arrayOf(kAccessor);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "isophote/error.hpp"
-#include "scene/stb_decode.hpp"
+#include "scene/gltf_specular_glossiness.hpp"
+#include "scene/image_decode.hpp"
 #include "scene/uri.hpp"
+#include "scene/webp_decode.hpp"
 
 namespace isophote::gltf {
 namespace {
@@ -44,12 +46,14 @@ EncodedImage loadEncoded(const Document& document, const Buffers& buffers, const
 
 void checkMediaType(const Document& document, const EncodedImage& encoded, const std::string& pointer) {
   const std::optional<ImageFormat> format = imageFormat(encoded.bytes);
-  if (!format) document.fail(pointer, "a PNG or JPEG image (IMAGE_UNRECOGNIZED_FORMAT)");
-  const std::string actual = *format == ImageFormat::Png ? "image/png" : "image/jpeg";
-  const bool declaresOther = encoded.mediaType.starts_with("image/") && encoded.mediaType != actual;
+  if (!format) document.fail(pointer, "a PNG, JPEG or WebP image (IMAGE_UNRECOGNIZED_FORMAT)");
+  const bool declaresOther = encoded.mediaType.starts_with("image/") && encoded.mediaType != mediaType(*format);
   if (declaresOther) {
-    document.fail(pointer,
-                  fmt::format("{} as declared, the bytes are {} (IMAGE_MIME_TYPE_INVALID)", encoded.mediaType, actual));
+    document.fail(pointer, fmt::format("{} as declared, the bytes are {} (IMAGE_MIME_TYPE_INVALID)", encoded.mediaType,
+                                       mediaType(*format)));
+  }
+  if (*format == ImageFormat::Webp && !webpAvailable()) {
+    throw UnsupportedError(document.file, pointer, "a PNG or JPEG image, this build has no WebP");
   }
 }
 
@@ -65,14 +69,33 @@ int32_t Textures::use(uint32_t index, Scene& scene) {
     result = static_cast<int32_t>(scene.textures.size());
     scene.textures.push_back(texture);
   } else {
-    document_.warnings.add("a texture without a PNG or JPEG image is left out", fmt::format("/textures/{}", index));
+    document_.warnings.add("a texture without an image that this build decodes is left out",
+                           fmt::format("/textures/{}", index));
   }
   textures_.emplace(index, result);
   return result;
 }
 
+int32_t Textures::useGlossiness(uint32_t index, float glossinessFactor, Scene& scene) {
+  const int32_t plain = use(index, scene);
+  if (plain == kNone) return kNone;
+  Texture texture = scene.textures[static_cast<size_t>(plain)];
+  const ImageData& image = scene.images[texture.image];
+  document_.claim(uint64_t{image.width} * image.height * 4, fmt::format("/textures/{}", index));
+  ImageData roughness = roughnessFromGlossiness(image, glossinessFactor);
+  texture.image = static_cast<uint32_t>(scene.images.size());
+  scene.images.push_back(std::move(roughness));
+  scene.textures.push_back(texture);
+  return static_cast<int32_t>(scene.textures.size() - 1);
+}
+
 std::optional<uint32_t> Textures::source(uint32_t index) const {
-  return indexOf(arrayOrEmpty(document_.root, "textures")[index], "source");
+  const Json& texture = arrayOrEmpty(document_.root, "textures")[index];
+  const Json* webp = extension(texture, "EXT_texture_webp");
+  if (webp && webpAvailable()) {
+    if (const std::optional<uint32_t> image = indexOf(*webp, "source")) return image;
+  }
+  return indexOf(texture, "source");
 }
 
 Texture Textures::readSampler(const Json& texture) const {

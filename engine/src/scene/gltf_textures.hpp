@@ -21,6 +21,9 @@ public:
   /// @throws SceneError at /images/N where the image is broken; LimitError where it is too large
   [[nodiscard]] int32_t use(uint32_t index, Scene& scene);
 
+  /// The same for a texture with glossiness in its alpha, which becomes roughness. Not shared between materials.
+  [[nodiscard]] int32_t useGlossiness(uint32_t index, float glossinessFactor, Scene& scene);
+
 private:
   [[nodiscard]] std::optional<uint32_t> source(uint32_t index) const;
   [[nodiscard]] uint32_t useImage(uint32_t index, Scene& scene);

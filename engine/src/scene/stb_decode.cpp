@@ -90,10 +90,6 @@ size_t allocationLimitFor(uint64_t pixels) {
   return kScratchBytes + static_cast<size_t>(pixels) * kMaxBytesPerPixel;
 }
 
-std::string tooLarge(uint64_t width, uint64_t height, uint64_t maxPixels) {
-  return fmt::format("{} x {} pixels, the limit is {} pixels", width, height, maxPixels);
-}
-
 /// stb_image refuses sizes whose bytes do not fit an int with this reason.
 bool isTooLargeForStb() { return std::string_view(stbi_failure_reason()) == "too large"; }
 
@@ -107,7 +103,7 @@ DecodeProblem readSize(std::span<const std::byte> bytes, uint64_t maxPixels, Siz
   }
   const auto width = static_cast<uint64_t>(size.width);
   const auto height = static_cast<uint64_t>(size.height);
-  if (width * height > maxPixels) return {.broken = {}, .tooLarge = tooLarge(width, height, maxPixels)};
+  if (width * height > maxPixels) return tooManyPixels(width, height, maxPixels);
   return {};
 }
 
@@ -124,7 +120,7 @@ DecodeProblem checkPngSize(std::span<const std::byte> bytes, uint64_t maxPixels)
   const uint64_t width = bigEndian(kWidthOffset);
   const uint64_t height = bigEndian(kHeightOffset);
   if (width * height <= maxPixels) return {}; // below 2^64: both have 32 bits
-  return {.broken = {}, .tooLarge = tooLarge(width, height, maxPixels)};
+  return tooManyPixels(width, height, maxPixels);
 }
 
 DecodeProblem pixelProblem(const Source& source, const void* pixels, const Size& size) {
@@ -142,18 +138,11 @@ bool startsWith(std::span<const std::byte> bytes, std::string_view magic) {
 
 } // namespace
 
-std::optional<ImageFormat> imageFormat(std::span<const std::byte> bytes) {
-  if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return ImageFormat::Png;
-  if (startsWith(bytes, "\xff\xd8\xff")) return ImageFormat::Jpeg;
-  return std::nullopt;
-}
-
 bool isRadianceHdr(std::span<const std::byte> bytes) {
   return startsWith(bytes, "#?RADIANCE\n") || startsWith(bytes, "#?RGBE\n");
 }
 
-DecodeProblem readImageHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image) {
-  if (!imageFormat(bytes)) return {.broken = "it is neither PNG nor JPEG", .tooLarge = {}};
+DecodeProblem readStbHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image) {
   if (DecodeProblem problem = checkPngSize(bytes, maxPixels); problem.any()) return problem;
   Size size;
   if (DecodeProblem problem = readSize(bytes, maxPixels, size); problem.any()) return problem;
@@ -164,7 +153,7 @@ DecodeProblem readImageHeader(std::span<const std::byte> bytes, uint64_t maxPixe
   return {};
 }
 
-DecodeProblem decodeImage(std::span<const std::byte> bytes, ImageData& image) {
+DecodeProblem decodeStb(std::span<const std::byte> bytes, ImageData& image) {
   const size_t pixelCount = size_t{image.width} * image.height;
   allocationLimit = allocationLimitFor(pixelCount);
   Source source{bytes};

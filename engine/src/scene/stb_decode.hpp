@@ -3,35 +3,22 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "isophote/scene.hpp"
+#include "scene/image_decode.hpp"
 
 namespace isophote {
 
-enum class ImageFormat : uint32_t { Png, Jpeg };
-
-/// By the first bytes of the file, as the formats define them.
-[[nodiscard]] std::optional<ImageFormat> imageFormat(std::span<const std::byte> bytes);
 [[nodiscard]] bool isRadianceHdr(std::span<const std::byte> bytes);
 
-/// What went wrong, or success where both are empty.
-struct DecodeProblem {
-  std::string broken;   ///< not an image of that format, or truncated
-  std::string tooLarge; ///< above the pixel limit; found before pixels are allocated
-  [[nodiscard]] bool any() const { return !broken.empty() || !tooLarge.empty(); }
-};
-
 /// Reads width, height and bits per channel of a PNG or JPEG into `image`: 16 bits where the PNG has 16, else 8.
-[[nodiscard]] DecodeProblem readImageHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image);
+[[nodiscard]] DecodeProblem readStbHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image);
 
-/// Decodes the pixels, as RGBA, of an image whose header was read.
-[[nodiscard]] DecodeProblem decodeImage(std::span<const std::byte> bytes, ImageData& image);
+/// Decodes the pixels, as RGBA, of a PNG or JPEG whose header was read.
+[[nodiscard]] DecodeProblem decodeStb(std::span<const std::byte> bytes, ImageData& image);
 
 struct HdrImage {
   uint32_t width = 0;

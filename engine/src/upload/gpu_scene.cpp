@@ -49,6 +49,8 @@ std::vector<ArrayUpload> arrayUploads(const PackedScene& packed, gpu::SceneView&
       arrayUpload("scene.materials", packed.materials, view.materials),
       arrayUpload("scene.textureSlots", packed.textureSlots, view.textureSlots),
       arrayUpload("scene.lightAlias", packed.lightAlias, view.lightAlias),
+      arrayUpload("scene.lightTree", packed.lightTree, view.lightTree),
+      arrayUpload("scene.lightTrails", packed.lightTrails, view.lightTrails),
       arrayUpload("scene.emissiveTriangles", packed.emissiveTriangles, view.emissiveTriangles),
       arrayUpload("scene.punctualLights", packed.punctualLights, view.punctualLights),
       arrayUpload("scene.environmentPixels", packed.environmentPixels, view.environment.pixels),
@@ -70,6 +72,7 @@ gpu::SceneView countsOf(const PackedScene& packed) {
   view.emissiveTriangleCount = static_cast<uint32_t>(packed.emissiveTriangles.size());
   view.punctualLightCount = static_cast<uint32_t>(packed.punctualLights.size());
   view.instanceCount = static_cast<uint32_t>(packed.instances.size());
+  view.lightTreeScale = packed.lightTreeScale;
   view.emitterScale = packed.emitterScale;
   return view;
 }

@@ -1,5 +1,6 @@
 #include "upload/pack_lights.hpp"
 
+#include "accel/light_tree.hpp"
 #include "isophote/error.hpp"
 #include "upload/alias_table.hpp"
 #include "upload/environment_density.hpp"
@@ -12,11 +13,14 @@
 namespace isophote {
 namespace {
 
+// Sine of a triangle's angle below which the device's normal may be far from the exact one.
+constexpr double kSmallestSine = 1e-4;
 constexpr double kPi = 3.14159265358979323846;
 
 double largestComponent(const glm::dvec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
-// Collects powers (W, luminance) in the order of light indices and the largest radiance that one event can add.
+// Collects the lights' bounds (luminance) in the order of light indices and the largest radiance that one event can
+// add.
 class LightPacker {
 public:
   LightPacker(const Scene& scene, const PackedGeometry& geometry, PackedScene& packed)
@@ -27,11 +31,28 @@ public:
     for (const PunctualLight& light : scene_.lights) addPunctual(light);
     if (scene_.environment) addEnvironment(*scene_.environment);
     addUnlit();
-    packed_.lightAlias = buildAliasTable(powers_);
+    packed_.lightAlias = buildAliasTable(powers());
+    if (packed_.features.has(Feature::kHasLightTree)) buildTree();
     packed_.emitterScale = largest_ > 0 ? powerOfTwoAbove(largest_) : 1.0f;
   }
 
 private:
+  [[nodiscard]] std::vector<double> powers() const {
+    std::vector<double> result;
+    for (const LightBound& light : lights_) result.push_back(light.power);
+    return result;
+  }
+
+  void buildTree() {
+    if (lights_.size() > gpu::kLightTreeMaxLights)
+      throw LimitError("the scene has " + std::to_string(lights_.size()) + " lights; their tree holds " +
+                       std::to_string(gpu::kLightTreeMaxLights));
+    LightTree tree = buildLightTree(lights_);
+    packed_.lightTree = std::move(tree.nodes);
+    packed_.lightTrails = std::move(tree.trails);
+    packed_.lightTreeScale = tree.scale;
+  }
+
   // Clamped so that neither it nor its inverse leaves the range of float.
   static float powerOfTwoAbove(double value) {
     return static_cast<float>(std::exp2(std::clamp(std::ceil(std::log2(value)), -100.0, 100.0)));
@@ -46,7 +67,7 @@ private:
       throw LimitError("the scene has " + std::to_string(total) +
                        " emissive triangles, instances counted; light indices have 32 bits");
     packed_.emissiveTriangles.reserve(total);
-    powers_.reserve(total + scene_.lights.size() + 1);
+    lights_.reserve(total + scene_.lights.size() + 1);
     for (uint32_t i = 0; i < packed_.instances.size(); ++i) {
       gpu::InstanceRecord& instance = packed_.instances[i];
       const PackedMesh& mesh = geometry_.meshes[instance.mesh];
@@ -56,31 +77,50 @@ private:
       for (size_t k = 0; k < mesh.emitters.size(); ++k) {
         const MeshEmitter& emitter = mesh.emitters[k];
         packed_.emissiveTriangles.push_back({i, emitter.triangle});
-        powers_.push_back(kPi * luminances[instance.mesh][k] * worldArea(worldFromObject, emitter.triangle));
+        lights_.push_back(emitterBound(worldFromObject, emitter, luminances[instance.mesh][k]));
       }
     }
   }
 
-  // Mean luminance of what each emitter of each mesh sends out, both sides counted.
+  // Mean luminance of what each emitter of each mesh sends out.
   std::vector<std::vector<double>> meshLuminances() {
     std::vector<std::vector<double>> result(geometry_.meshes.size());
     for (size_t i = 0; i < result.size(); ++i) {
       for (const MeshEmitter& emitter : geometry_.meshes[i].emitters) {
         const Primitive& primitive = scene_.meshes[i].primitives[emitter.primitive];
         const Material& material = scene_.materials[primitive.material];
-        const double sides = material.doubleSided ? 2 : 1;
-        result[i].push_back(sides * emission_.meanLuminance(material, primitive, emitter.primitiveIndex));
+        result[i].push_back(emission_.meanLuminance(material, primitive, emitter.primitiveIndex));
         largest_ = std::max(largest_, largestComponent(emission_.largestRadiance(material)));
       }
     }
     return result;
   }
 
-  [[nodiscard]] double worldArea(const glm::dmat3& worldFromObject, uint32_t triangle) const {
-    const gpu::BvhTriangle& t = packed_.triangles[triangle];
-    const glm::dvec3 e1 = worldFromObject * (glm::dvec3(t.v1) - glm::dvec3(t.v0));
-    const glm::dvec3 e2 = worldFromObject * (glm::dvec3(t.v2) - glm::dvec3(t.v0));
-    return 0.5 * glm::length(glm::cross(e1, e2));
+  [[nodiscard]] LightBound emitterBound(const glm::dmat4& worldFromObject, const MeshEmitter& emitter,
+                                        double radiance) const {
+    const gpu::BvhTriangle& t = packed_.triangles[emitter.triangle];
+    const auto place = [&](const glm::vec3& v) {
+      return glm::dvec3(worldFromObject * glm::dvec4(glm::dvec3(v), 1)) - packed_.worldOrigin;
+    };
+    const glm::dvec3 v0 = place(t.v0);
+    const glm::dvec3 v1 = place(t.v1);
+    const glm::dvec3 v2 = place(t.v2);
+    const glm::dvec3 normal = glm::cross(v1 - v0, v2 - v0);
+    const double twiceArea = glm::length(normal);
+    LightBound bound;
+    bound.lower = glm::min(v0, glm::min(v1, v2));
+    bound.upper = glm::max(v0, glm::max(v1, v2));
+    // A mirroring map takes the front along.
+    const double side = glm::determinant(glm::dmat3(worldFromObject)) < 0 ? -1 : 1;
+    if (twiceArea > 0) bound.axis = side / twiceArea * normal;
+    bound.thetaE = kPi / 2;
+    // What is almost a line has a normal of chance.
+    if (!(twiceArea > kSmallestSine * glm::length(v1 - v0) * glm::length(v2 - v0))) bound.thetaO = kPi;
+    const gpu::Geometry& geometry = packed_.geometries[t.geometry];
+    bound.twoSided = (packed_.materials[geometry.material].flags & gpu::kMaterialDoubleSided) != 0;
+    bound.intensity = 0.5 * twiceArea * radiance;
+    bound.power = (bound.twoSided ? 2 : 1) * kPi * bound.intensity;
+    return bound;
   }
 
   void addPunctual(const PunctualLight& light) {
@@ -96,19 +136,29 @@ private:
 
     const double squaredRadius = packed_.worldRadius * packed_.worldRadius;
     const double intensity = luminance(light.intensity);
+    LightBound bound;
+    bound.lower = bound.upper = light.position - packed_.worldOrigin;
+    bound.intensity = intensity;
     switch (light.kind) {
     case LightKind::Point:
-      powers_.push_back(4 * kPi * intensity);
+      bound.thetaO = kPi;
+      bound.thetaE = kPi / 2;
+      bound.power = 4 * kPi * intensity;
       break;
     case LightKind::Spot:
+      bound.axis = light.direction;
+      bound.thetaO = static_cast<double>(light.innerConeAngle);
+      bound.thetaE = static_cast<double>(light.outerConeAngle) - bound.thetaO;
       // The falloff's square root is linear in the cosine: its integral between the cones is a third.
-      powers_.push_back(2 * kPi * intensity *
-                        ((1 - record.cosInner) + std::max(0.0f, record.cosInner - record.cosOuter) / 3.0));
+      bound.power =
+          2 * kPi * intensity * ((1 - record.cosInner) + std::max(0.0f, record.cosInner - record.cosOuter) / 3.0);
       break;
     case LightKind::Directional:
-      powers_.push_back(kPi * squaredRadius * intensity);
+      bound.infinite = true;
+      bound.power = kPi * squaredRadius * intensity;
       break;
     }
+    lights_.push_back(bound);
     // Reflected radiance is about the irradiance; of a point light that at the distance of one scene radius.
     const double irradiance = largestComponent(light.intensity);
     largest_ = std::max(largest_, light.kind == LightKind::Directional ? irradiance : irradiance / squaredRadius);
@@ -129,7 +179,10 @@ private:
       pixel *= environment.intensity;
       largest_ = std::max(largest_, largestComponent(pixel));
     }
-    powers_.push_back(power);
+    LightBound bound;
+    bound.infinite = true;
+    bound.power = power;
+    lights_.push_back(bound);
   }
 
   // Unlit surfaces are no lights, but the camera sees them shine.
@@ -144,7 +197,7 @@ private:
   const PackedGeometry& geometry_;
   PackedScene& packed_;
   EmissionEstimator emission_;
-  std::vector<double> powers_;
+  std::vector<LightBound> lights_; // in the order of light indices
   double largest_ = 0;
 };
 

@@ -31,6 +31,7 @@ void removeUnfound(PackedScene& packed) {
   };
   if (packed.features.has(Feature::kHasAlpha) && !isFlagged(gpu::kTriangleHasAlpha))
     packed.features.remove(Feature::kHasAlpha);
+  if (packed.lightTree.empty()) packed.features.remove(Feature::kHasLightTree);
   if (packed.emissiveTriangles.empty()) packed.features.remove(Feature::kHasEmissiveTriangles);
   if (packed.environmentPixels.empty()) packed.features.remove(Feature::kHasEnvironment);
 }

@@ -46,6 +46,9 @@ struct PackedScene {
   std::vector<gpu::TextureSlot> textureSlots;
   std::vector<PackedTexture> textures;
   std::vector<gpu::AliasEntry> lightAlias;
+  std::vector<gpu::LightTreeNode> lightTree;
+  std::vector<uint32_t> lightTrails;
+  float lightTreeScale = 1;
   std::vector<gpu::EmissiveTriangle> emissiveTriangles;
   std::vector<gpu::PunctualLightRecord> punctualLights;
   std::vector<glm::vec3> environmentPixels;
