@@ -41,14 +41,12 @@ float reachOf(const BvhNode root, const vec3 origin) {
   return max(farthest.x, max(farthest.y, farthest.z));
 }
 
-// A CPU driver reads lane by lane and component by component, 8 bytes as fast as 4: nodes go by pairs of words.
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer WordPairRef { u64vec2 items[]; };
-
-BvhNode readNode(const WordPairRef nodes, const uint index) {
-  const u64vec2 pair0 = nodes.items[4u * index];
-  const u64vec2 pair1 = nodes.items[4u * index + 1u];
-  const u64vec2 pair2 = nodes.items[4u * index + 2u];
-  const u64vec2 pair3 = nodes.items[4u * index + 3u];
+/// A node of the array, the top level's first.
+BvhNode readNode(const BvhNodeRef nodes, const uint index) {
+  const u64vec2 pair0 = nodes.pairs[4u * index];
+  const u64vec2 pair1 = nodes.pairs[4u * index + 1u];
+  const u64vec2 pair2 = nodes.pairs[4u * index + 2u];
+  const u64vec2 pair3 = nodes.pairs[4u * index + 3u];
   const uvec4 a = uvec4(unpackUint2x32(pair0.x), unpackUint2x32(pair0.y));
   const uvec4 b = uvec4(unpackUint2x32(pair1.x), unpackUint2x32(pair1.y));
   const uvec4 c = uvec4(unpackUint2x32(pair2.x), unpackUint2x32(pair2.y));
@@ -66,7 +64,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
   RayHit best = RayHit(tMax, kInvalidIndex, kInvalidIndex, vec2(0.0), false, false);
   if (scene.view.instanceCount == 0u) return best;
   // Locals: the compiler of a CPU driver does not hoist loads out of the loop.
-  const WordPairRef nodes = WordPairRef(scene.view.nodes);
+  BvhNodeRef nodes = BvhNodeRef(scene.view.nodes);
   BvhTriangleRef triangles = BvhTriangleRef(scene.view.triangles);
   InstanceRef instances = InstanceRef(scene.view.instances);
 
