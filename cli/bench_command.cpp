@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "isophote/path_tracer.hpp"
+#include "isophote/ray_bench.hpp"
 #include "parse.hpp"
 #include "scene_source.hpp"
 
@@ -26,6 +27,7 @@ struct BenchOptions {
   EnvironmentOptions environment;
   std::optional<std::string> variant;
   std::string device;
+  std::string rays;
   double seconds = 4;
   bool json = false;
 };
@@ -143,7 +145,41 @@ void printText(const Json& json) {
     fmt::print("the scene has no light: a white environment was added\n");
 }
 
+/// Traces recorded rays alone.
+int runRays(const BenchOptions& options) {
+  const RayList list = readRays(options.rays);
+  const VulkanInstance instance;
+  const Device device(instance, {.selector = options.device});
+  const GpuScene scene(device, loadScene(options.scene, options.environment, options.variant).scene);
+  RayTimes times = timeRays(device, scene, list, options.seconds);
+  std::sort(times.seconds.begin(), times.seconds.end());
+  const double median = times.seconds[times.seconds.size() / 2];
+  const double rate = perSecond(static_cast<double>(list.rays.size()), median * 1e3);
+  const bool closest = list.question == RayQuestion::ClosestHit;
+  if (options.json) {
+    const Json json = {{"schema", 1},
+                       {"scene", options.scene},
+                       {"device", device.info().name},
+                       {"driver", device.info().driver},
+                       {"triangles", scene.statistics().triangles},
+                       {"rays_file", options.rays},
+                       {"question", closest ? "closest" : "occluded"},
+                       {"rays", list.rays.size()},
+                       {"hits", times.hits},
+                       {"repetitions", times.seconds.size()},
+                       {"median_seconds", median},
+                       {"mrays_per_s_of_file", rate}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    fmt::print("{} rays ({}) of {} in {} on {}: {:.2f} Mrays/s, {} met a surface\n", list.rays.size(),
+               closest ? "closest hit" : "occlusion", options.rays, options.scene, device.info().name, rate,
+               times.hits);
+  }
+  return kDone;
+}
+
 int runBench(const BenchOptions& options) {
+  if (!options.rays.empty()) return runRays(options);
   Scene asset = loadScene(options.scene, options.environment, options.variant).scene;
   const bool whiteEnvironment = !hasLight(asset);
   if (whiteEnvironment) asset.environment = Environment{.width = 1, .height = 1, .pixels = {glm::vec3(1)}};
@@ -181,6 +217,8 @@ void addBenchCommand(CLI::App& program, Action& action) {
   command->add_flag("--json", options->json, "Machine-readable");
   command->add_option("--device", options->device, "Vulkan device by part of its name, index, or cpu")
       ->type_name("NAME|INDEX|cpu");
+  command->add_option("--rays", options->rays, "Trace the rays of a file that bench/ recorded, and nothing else")
+      ->type_name("FILE");
   addValue(
       *command, "--time", "SECONDS",
       [options](const std::string& text) { options->seconds = parseNumber(text, 0.1, 3600); },

@@ -22,6 +22,7 @@ DEVICE_HEADERS = {
     "isophote/device.hpp": {"gpu", "upload", "render"},
     "isophote/gpu_scene.hpp": {"upload", "render"},
     "isophote/film.hpp": {"render"},
+    "isophote/ray_bench.hpp": {"render"},
     "isophote/path_tracer.hpp": {"render"},
 }
 # Third parties that only these folders may include; tests and bench are free.

@@ -42,6 +42,20 @@ float reachOf(const BvhNode root, const vec3 origin) {
   return max(farthest.x, max(farthest.y, farthest.z));
 }
 
+/// A node of the array, the top level's first.
+BvhNode readNode(const BvhNodeRef nodes, const uint index) {
+  const u64vec2 pair0 = nodes.pairs[4u * index];
+  const u64vec2 pair1 = nodes.pairs[4u * index + 1u];
+  const u64vec2 pair2 = nodes.pairs[4u * index + 2u];
+  const u64vec2 pair3 = nodes.pairs[4u * index + 3u];
+  const uvec4 a = uvec4(unpackUint2x32(pair0.x), unpackUint2x32(pair0.y));
+  const uvec4 b = uvec4(unpackUint2x32(pair1.x), unpackUint2x32(pair1.y));
+  const uvec4 c = uvec4(unpackUint2x32(pair2.x), unpackUint2x32(pair2.y));
+  const uvec4 d = uvec4(unpackUint2x32(pair3.x), unpackUint2x32(pair3.y));
+  return BvhNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w,
+                 uintBitsToFloat(d.xyz), d.w);
+}
+
 /// The body of traceClosest and traceOccluded. `anyHit` is a literal at both calls, so each keeps only its own half.
 ///
 /// @param ignored  instance of a sphere light that the ray does not see, or kInvalidIndex
@@ -62,7 +76,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
   uint stackSize = 0u;
   uint instanceFloor = 0u; // stack size at which the current instance is done
   uint instance = kTopLevel;
-  const BoxRay worldRay = makeBoxRay(origin, direction, reachOf(nodes.items[0], origin));
+  const BoxRay worldRay = makeBoxRay(origin, direction, reachOf(readNode(nodes, 0u), origin));
   BoxRay boxRay = worldRay;
   TriangleRay triangleRay = TriangleRay(vec3(0.0), vec3(0.0), vec3(0.0), 0u);
   uint work = 0u; // the root
@@ -71,7 +85,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
     const uint index = work & kWorkIndexMask;
     const uint count = work >> kWorkCountShift;
     if (count == 0u) {
-      const BvhNode node = nodes.items[index];
+      const BvhNode node = readNode(nodes, index);
       const float t0 = enterBox(boxRay, node.lower0, node.upper0, tMin, best.t);
       const float t1 = enterBox(boxRay, node.lower1, node.upper1, tMin, best.t);
       const uint work0 = node.child0 | node.count0 << kWorkCountShift;
@@ -114,7 +128,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
         const vec3 objectOrigin = transformPoint(objectFromWorld, origin);
         const vec3 objectDirection = transformVector(objectFromWorld, direction);
         work = instances.items[instance].rootNode;
-        boxRay = makeBoxRay(objectOrigin, objectDirection, reachOf(nodes.items[work], objectOrigin));
+        boxRay = makeBoxRay(objectOrigin, objectDirection, reachOf(readNode(nodes, work), objectOrigin));
         triangleRay = makeTriangleRay(objectOrigin, objectDirection);
       }
     } else {

@@ -1,4 +1,4 @@
-// Typed device addresses of everything SceneView points at. Usage: BvhNodeRef(scene.view.nodes).items[i].
+// Typed device addresses of everything SceneView points at. Usage: GeometryRef(scene.view.geometries).items[i].
 #ifndef ISOPHOTE_BUFFERS_GLSL
 #define ISOPHOTE_BUFFERS_GLSL
 
@@ -23,7 +23,8 @@ ISOPHOTE_BUFFER(UintRef, uint);
 ISOPHOTE_BUFFER(Vec2Ref, vec2);
 ISOPHOTE_BUFFER(Vec3Ref, vec3);
 ISOPHOTE_BUFFER(Vec4Ref, vec4);
-ISOPHOTE_BUFFER(BvhNodeRef, BvhNode);
+// BvhNode as four pairs of 8-byte words: a CPU driver gathers component by component, 8 bytes as fast as 4.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeRef { u64vec2 pairs[]; };
 ISOPHOTE_BUFFER(BvhTriangleRef, BvhTriangle);
 ISOPHOTE_BUFFER(InstanceRef, InstanceRecord);
 ISOPHOTE_BUFFER(GeometryRef, Geometry);

@@ -1,11 +1,9 @@
 #include "isophote/path_tracer.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 
 #include "gpu/commands.hpp"
@@ -13,9 +11,9 @@
 #include "render/camera_media.hpp"
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
+#include "render/render_view.hpp"
 #include "render/wavefront_kernels.hpp"
 #include "shared/geometry_types.h"
-#include "upload/camera_record.hpp"
 #include "upload/filter_table.hpp"
 #include "upload/gpu_scene.hpp"
 
@@ -36,8 +34,6 @@ constexpr uint32_t kDispatchesPerWave = 12;
 // Watchdogs kill long dispatches, and Ctrl-C must be answered: above this the wave gets smaller.
 constexpr double kLongestDispatchMilliseconds = 100;
 constexpr uint32_t kFewestActivePaths = 256;
-
-uint32_t powerOfTwoBelow(uint32_t value, uint32_t limit) { return std::min(std::bit_floor(value), limit); }
 
 } // namespace
 
@@ -130,36 +126,8 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
 }
 
 void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) {
-  const GpuScene::Impl& gpuScene = scene.impl();
-  Film::Impl& target = film->impl();
-  // Lengths: a power of two near the scene's radius, with room for points 2^33 radii away.
-  const double radius = std::exp2(std::ceil(std::log2(std::max(gpuScene.worldRadius, 1e-30))));
-  const FilmScale scale = {.radiancePerUnit =
-                               gpuScene.emitterScale * std::ldexp(1.0, -static_cast<int>(gpu::kRadianceFractionBits)),
-                           .lengthPerUnit = radius * std::ldexp(1.0, -30),
-                           .worldOrigin = gpuScene.worldOrigin};
-  if (target.scale && !(*target.scale == scale)) throw Error("the film holds samples of another scene: clear it first");
-  target.scale = scale;
-
-  const PixelRect& crop = target.options.crop;
-  gpu::RenderView view{};
-  view.camera = cameraRecord(camera, target.options.width, target.options.height, gpuScene.worldOrigin);
-  view.filterTable = pool->filterTable.address();
-  view.replicates = target.replicates.address();
-  view.aovs = target.aovs.address();
-  view.imageSize = {target.options.width, target.options.height};
-  view.cropOrigin = {crop.x0, crop.y0};
-  view.cropSize = {target.cropWidth, target.cropHeight};
-  view.tileSize = {powerOfTwoBelow(target.cropWidth, 8), powerOfTwoBelow(target.cropHeight, 8)};
-  view.tileColumns = (target.cropWidth + view.tileSize.x - 1) / view.tileSize.x;
-  const uint32_t tileRows = (target.cropHeight + view.tileSize.y - 1) / view.tileSize.y;
-  view.paddedPixelCount = view.tileColumns * view.tileSize.x * tileRows * view.tileSize.y;
-  view.firstSample = range.first;
-  view.maxDepth = estimator.maxDepth;
-  view.seed = {static_cast<uint32_t>(estimator.seed), static_cast<uint32_t>(estimator.seed >> 32)};
-  view.radianceScale = static_cast<float>(1.0 / scale.radiancePerUnit);
-  view.distanceScale = static_cast<float>(1.0 / scale.lengthPerUnit);
-  view.workEnd = uint64_t{view.paddedPixelCount} * (range.last - range.first);
+  const gpu::RenderView view =
+      renderView(scene.impl(), film->impl(), camera, range, estimator, pool->filterTable.address());
   workEnd = view.workEnd;
   gpu::writeBuffer(device, pool->render, 0, std::as_bytes(std::span(&view, 1)));
 }

@@ -13,24 +13,6 @@ enum Setting : uint32_t {
 #undef ISOPHOTE_SETTING
 };
 
-std::vector<gpu::SpecConstant> specialization(const FeatureSet& features, const EstimatorSettings& settings,
-                                              uint32_t workgroupSize) {
-  std::vector<gpu::SpecConstant> constants = {{0, workgroupSize}};
-  for (const FeatureDescription& description : allFeatures()) {
-    constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
-  }
-  constants.push_back({kSampler, static_cast<uint32_t>(settings.sampler)});
-  constants.push_back({kLightSampling, static_cast<uint32_t>(settings.lightSampling)});
-  constants.push_back({kMultipleScattering, settings.multipleScattering ? 1u : 0u});
-  constants.push_back({kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
-  constants.push_back({kTriangleLightSampling, static_cast<uint32_t>(settings.triangleLightSampling)});
-  constants.push_back({kDirectionSampling, static_cast<uint32_t>(settings.directionSampling)});
-  constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
-  constants.push_back({kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
-  constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
-  return constants;
-}
-
 // Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
 bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings) {
   if (settings.maxDepth == 0) return false;
@@ -48,6 +30,24 @@ bool shinesBeyondSurfaces(const FeatureSet& features) {
 
 } // namespace
 
+std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const EstimatorSettings& settings,
+                                               uint32_t workgroupSize) {
+  std::vector<gpu::SpecConstant> constants = {{0, workgroupSize}};
+  for (const FeatureDescription& description : allFeatures()) {
+    constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
+  }
+  constants.push_back({kSampler, static_cast<uint32_t>(settings.sampler)});
+  constants.push_back({kLightSampling, static_cast<uint32_t>(settings.lightSampling)});
+  constants.push_back({kMultipleScattering, settings.multipleScattering ? 1u : 0u});
+  constants.push_back({kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
+  constants.push_back({kTriangleLightSampling, static_cast<uint32_t>(settings.triangleLightSampling)});
+  constants.push_back({kDirectionSampling, static_cast<uint32_t>(settings.directionSampling)});
+  constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
+  constants.push_back({kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
+  constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
+  return constants;
+}
+
 std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
   std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
   if (shadeEscaped) kernels.push_back(&*shadeEscaped);
@@ -62,7 +62,7 @@ std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
 WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
                                       const EstimatorSettings& settings, uint32_t workgroupSize,
                                       VkDescriptorSetLayout textureLayout) {
-  const auto constants = specialization(features, settings, workgroupSize);
+  const auto constants = kernelConstants(features, settings, workgroupSize);
   const auto make = [&](const char* name) {
     return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
   };

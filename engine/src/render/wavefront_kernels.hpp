@@ -25,6 +25,10 @@ struct WavefrontKernels {
   [[nodiscard]] std::vector<const gpu::Kernel*> all() const;
 };
 
+/// What specializes a kernel: workgroup size, features, settings.
+[[nodiscard]] std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features,
+                                                             const EstimatorSettings& settings, uint32_t workgroupSize);
+
 /// @param textureLayout  of the scene's texture array, null where it has none
 [[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
                                                     const EstimatorSettings& settings, uint32_t workgroupSize,

@@ -1,0 +1,45 @@
+#include "world_triangles.hpp"
+
+#include "upload/pack_scene.hpp"
+
+namespace isophote::bench {
+
+WorldTriangles worldTriangles(const Scene& scene) {
+  const PackedScene packed = packScene(scene); // as GpuScene does, so with the same numbers
+  // Meshes in use follow one another in the array of triangles.
+  std::vector<uint32_t> count(scene.meshes.size()), first(scene.meshes.size());
+  std::vector<bool> used(scene.meshes.size());
+  for (const gpu::InstanceRecord& instance : packed.instances) used[instance.mesh] = true;
+  uint32_t next = 0;
+  for (size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+    if (!used[mesh]) continue;
+    for (const Primitive& primitive : scene.meshes[mesh].primitives) {
+      count[mesh] += static_cast<uint32_t>(primitive.indices.size() / 3);
+    }
+    first[mesh] = next;
+    next += count[mesh];
+  }
+  WorldTriangles result;
+  for (const gpu::InstanceRecord& instance : packed.instances) {
+    result.instanceOffset.push_back(static_cast<uint32_t>(result.corners.size() / 3) - first[instance.mesh]);
+    for (uint32_t i = 0; i < count[instance.mesh]; ++i) {
+      const gpu::BvhTriangle& triangle = packed.triangles[first[instance.mesh] + i];
+      for (const glm::vec3& corner : {triangle.v0, triangle.v1, triangle.v2}) {
+        glm::dvec3 world;
+        for (int row = 0; row < 3; ++row) {
+          world[row] = glm::dot(glm::dvec4(instance.worldFromObject[row]), glm::dvec4(corner, 1));
+        }
+        result.corners.emplace_back(world + packed.worldOrigin);
+      }
+    }
+  }
+  return result;
+}
+
+double planeDistance(const glm::vec3 (&corners)[3], glm::dvec3 origin, glm::dvec3 direction) {
+  const glm::dvec3 a(corners[0]);
+  const glm::dvec3 normal = glm::cross(glm::dvec3(corners[1]) - a, glm::dvec3(corners[2]) - a);
+  return glm::dot(a - origin, normal) / glm::dot(direction, normal);
+}
+
+} // namespace isophote::bench
