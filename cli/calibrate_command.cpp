@@ -55,7 +55,7 @@ class Calibration {
 public:
   Calibration(const Device& device, const LoadedScene& loaded, const CalibrateOptions& options)
       : device_(device), scene_(device, loaded.scene), options_(options),
-        view_(chooseView(loaded.scene, std::nullopt, options.width, std::nullopt)) {
+        view_(chooseView(loaded.scene, CameraOptions{}, options.width, std::nullopt)) {
     reference_ = render({.seed = kReferenceSeed}, options.referenceSamples).image;
     double luminance = 0;
     const size_t pixels = size_t{view_.width} * view_.height;
