@@ -16,18 +16,10 @@ namespace isophote::gltf {
 namespace {
 
 constexpr std::string_view kModeled[] = {
-    "EXT_mesh_gpu_instancing",
-    "KHR_lights_punctual",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_mesh_quantization",
-    "KHR_node_visibility",
+    "EXT_mesh_gpu_instancing",         "KHR_lights_punctual",        "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength", "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",          "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",          "KHR_mesh_quantization",      "KHR_node_visibility",
     "KHR_texture_transform",
 };
 
