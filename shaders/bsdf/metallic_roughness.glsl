@@ -348,7 +348,7 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
     const float continued = glass.lost * glassLossAt(scene, m, wiLocal.z, false) / glass.meanInFront;
     value.diffuse += m.glass * (1.0 - glass.transmitted) * continued * cosine;
   }
-  value.pdfSolidAngle = (1.0 - shares.facetProbability - shares.behindProbability) * cosine;
+  value.pdfSolidAngle = max(1.0 - shares.facetProbability - shares.behindProbability, 0.0) * cosine;
   if (!isMirror(m)) {
     const vec3 sum = woLocal + wiLocal;
     const float twoCosine = length(sum); // 2 dot(wo, wm) of unit directions: the same from both sides to the last bit
