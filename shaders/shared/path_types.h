@@ -154,7 +154,7 @@ struct KernelArgs {
   Address shadows;
   Address interiors; // InteriorState[capacity], 0 where nothing transmits
   Address receivers; // LightReceiver that sampled a light last, for the weight of what its BSDF ray finds; 0: not kept
-  Address media; // MediaState[capacity], 0 without volumes
+  Address media;     // MediaState[capacity], 0 without volumes
   uint capacity;
   uint activeLimit; // paths in flight, 0: no new path starts
   uint prepare;     // kPrepare*

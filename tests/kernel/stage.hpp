@@ -21,13 +21,17 @@ namespace isophote::test {
 class Stage {
 public:
   static constexpr uint32_t kWorkgroup = 64;
+  static constexpr gpu::MediumStack kNoMedia = {
+      {gpu::kInvalidIndex, gpu::kInvalidIndex, gpu::kInvalidIndex, gpu::kInvalidIndex}};
 
   Stage(const Scene& scene, uint32_t capacity, const FilmOptions& filmOptions = {.width = 4, .height = 4})
       : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions),
         pool(gpuDevice(), capacity, {.shadows = true, .interiors = true, .media = true, .scatteringMedia = true}),
         kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)), rays(capacity),
-        hits(capacity), paths(capacity), shadows(capacity), interiors(capacity, {1, 0}) {
+        hits(capacity), paths(capacity), shadows(capacity), interiors(capacity, {1, 0}),
+        media(capacity, {kNoMedia, kNoMedia, 0, 0, 0}) {
     for (auto& queue : queues) queue.resize(capacity);
+    view.cameraMedia = kNoMedia;
     view.replicates = film.impl().replicates.address();
     view.aovs = film.impl().aovs.address();
     view.imageSize = {filmOptions.width, filmOptions.height};
@@ -73,6 +77,7 @@ public:
   std::vector<gpu::PathState> paths;
   std::vector<gpu::ShadowState> shadows;
   std::vector<gpu::InteriorState> interiors;
+  std::vector<gpu::MediaState> media;
 
 private:
   // The scenes of these tests have none, and a kernel that reads them would need some.
@@ -114,6 +119,7 @@ private:
     move(up, pool.hits, 0, std::span(hits));
     move(up, pool.paths, 0, std::span(paths));
     move(up, pool.shadows, 0, std::span(shadows));
+    move(up, pool.media, 0, std::span(media));
     move(up, pool.interiors, 0, std::span(interiors));
     move(up, pool.wave, 0, std::span(&wave, 1));
     move(up, pool.render, 0, std::span(&view, 1));

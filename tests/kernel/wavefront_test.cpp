@@ -68,8 +68,11 @@ TEST(Prepare, CountsRaysByKindAndSizesDispatches) {
   EXPECT_EQ(stage.wave.dispatches[gpu::kStageIntersectClosest].x, groupsFor(200));
   stage.wave.counts[gpu::kQueueSurface] = 64;
   stage.wave.counts[gpu::kQueueEscaped] = 65;
-  stage.run(stage.kernels.prepare, 1, gpu::kPrepareShade);
+  stage.wave.counts[gpu::kQueueMedium] = 129;
+  stage.run(stage.kernels.prepare, 1, gpu::kPrepareMedium); // the first stage that shades, in these kernels
   EXPECT_EQ(stage.wave.counts[gpu::kQueueRay], 0u);
+  EXPECT_EQ(stage.wave.dispatches[gpu::kStageShadeMedium].x, 3u);
+  stage.run(stage.kernels.prepare, 1, gpu::kPrepareShade);
   EXPECT_EQ(stage.wave.dispatches[gpu::kStageShadeSurface].x, 1u);
   EXPECT_EQ(stage.wave.dispatches[gpu::kStageShadeEscaped].x, 2u);
 }
