@@ -78,6 +78,8 @@ def scene(triangles):
         strength = 1000.0 * 10.0 ** rng.uniform(-1.5, 1.0)
         radiance = tuple(strength * c for c in COLORS[i % len(COLORS)])
         count = triangles * (i + 1) // groups - triangles * i // groups
+        if count == 0:
+            continue
         shape = gltf.shape(lamps(rng, count, clumps))
         primitives.append({**shape, "material": gltf.emitter(f"lamp {i}", radiance)})
     mesh = gltf.mesh("lamps", {}, 0)
