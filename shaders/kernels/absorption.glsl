@@ -5,8 +5,8 @@
 #include "kernels/wavefront.glsl"
 #include "medium/medium_stack.glsl"
 
-/// What the medium between the ray's origin and what it hit leaves of the throughput; sampling did that already where it
-/// scatters.
+/// What the medium between the ray's origin and what it hit leaves of the throughput; sampling did that already where
+/// it scatters.
 void absorbAlongRay(const SceneRef scene, const uint slot, inout PathState path) {
   MediaRef media = MediaRef(pc.media);
   const uint material = currentMedium(scene, media.items[slot].path);

@@ -30,7 +30,8 @@ void main() {
   MediumStack around = noMedia();
   MediumStack entered = noMedia();
   for (uint i = 0u; i < kMostSurfaces; ++i) {
-    const RayHit hit = traceClosest(scene, origin, direction, 0.0, kRayInfinity, AlphaKey(0u, line, uvec2(0u), 0u), kInvalidIndex);
+    const RayHit hit =
+        traceClosest(scene, origin, direction, 0.0, kRayInfinity, AlphaKey(0u, line, uvec2(0u), 0u), kInvalidIndex);
     if (!hit.found || hit.triangle == kInvalidIndex) break; // out of the scene, or at a sphere light
     const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, -direction);
     origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, direction);

@@ -1,5 +1,5 @@
-// RayQueue -> surface queue | medium queue | escaped queue: rays that met a sphere light or nothing (straight to finished
-// where nothing shines from outside).
+// RayQueue -> surface queue | medium queue | escaped queue: rays that met a sphere light or nothing (straight to
+// finished where nothing shines from outside).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -22,7 +22,8 @@ void main() {
     key = AlphaKey(paths.items[slot].pixel, paths.items[slot].sampleIndex, RenderRef(pc.render).view.seed,
                    paths.items[slot].depth);
   }
-  const RayHit hit = traceClosest(SceneRef(pc.scene), ray.origin, ray.direction, ray.tMin, ray.tMax, key, kInvalidIndex);
+  const RayHit hit =
+      traceClosest(SceneRef(pc.scene), ray.origin, ray.direction, ray.tMin, ray.tMax, key, kInvalidIndex);
   if (hit.stackOverflow) countStatus(kStatusStackOverflow);
   if (hit.found) {
     HitRef(pc.hits).items[slot] = HitState(hit.instance, hit.triangle, hit.barycentrics);

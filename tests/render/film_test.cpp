@@ -112,7 +112,9 @@ TEST(RenderFilm, StandardErrorsTellTheSpreadOfPixelMeans) {
       for (size_t i = 0; i < means.size(); ++i) {
         const double difference = std::abs(means[i] - c.expected);
         outside += difference > kQuantile * errors[i] ? 1.0 / 4096 : 0;
-        if (trust[i] > 0.1001f) ASSERT_NEAR(half[i], kQuantile * errors[i], 1e-4 * half[i]);
+        if (trust[i] > 0.1001f) {
+          ASSERT_NEAR(half[i], kQuantile * errors[i], 1e-4 * half[i]);
+        }
       }
       EXPECT_NEAR(outside, 0.05, kTolerance) << c.scene.name << ", sampler " << static_cast<uint32_t>(sampler);
     }
