@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "glsl/bsdf_material_cases.hpp"
+#include "render/setting_ids.hpp"
 
 using namespace isophote;
 using gpu::BsdfCase;
@@ -101,6 +102,6 @@ TEST(BsdfFurnace, ColoredMetalsLoseTheirColorPerBounce) {
 TEST(BsdfFurnace, WithoutMultipleScatteringAWhiteMetalKeepsTheTablesAlbedo) {
   BsdfCase c = test::bsdfMaterial(glm::vec3(1), 1, 1);
   c.wo = {0, 0, 1};
-  const gpu::SpecConstant constants[] = {{69, 0}};
+  const gpu::SpecConstant constants[] = {{setting_id::kMultipleScattering, 0}};
   EXPECT_NEAR(albedos({c}, constants)[0], 1 - std::log(2.0), 2e-3);
 }

@@ -6,6 +6,7 @@
 #include "glsl/bsdf_material_cases.hpp"
 #include "isophote/features.hpp"
 #include "oracle/bsdf_ggx.hpp"
+#include "render/setting_ids.hpp"
 
 using namespace isophote;
 using gpu::BsdfCase;
@@ -213,7 +214,7 @@ TEST(Bsdf, MetalReflectsTheTabulatedAlbedoOnce) {
       materials.back().wo = test::directionOf(cosine, 0.2);
     }
   }
-  const gpu::SpecConstant singleScattering[] = {{69, 0}}; // kMultipleScattering
+  const gpu::SpecConstant singleScattering[] = {{setting_id::kMultipleScattering, 0}};
   const auto albedos = sampledAlbedos(materials, singleScattering);
   for (size_t i = 0; i < materials.size(); ++i) {
     const BsdfCase& c = materials[i];

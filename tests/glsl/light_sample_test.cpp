@@ -8,6 +8,7 @@
 
 #include "glsl/light_scene.hpp"
 #include "gpu/texture_array.hpp"
+#include "render/setting_ids.hpp"
 #include "support/probe.hpp"
 #include "support/statistics.hpp"
 #include "test_glsl_kernels.hpp"
@@ -25,8 +26,8 @@ constexpr gpu::SpecConstant kNoTriangles{6, 0};
 constexpr gpu::SpecConstant kNoPunctual{7, 0};
 constexpr gpu::SpecConstant kNoEnvironment{8, 0};
 // Of shared/settings.inc.
-constexpr gpu::SpecConstant kByArea{69, 0};
-constexpr gpu::SpecConstant kBySolidAngle{69, 1};
+constexpr gpu::SpecConstant kByArea{setting_id::kTriangleLightSampling, 0};
+constexpr gpu::SpecConstant kBySolidAngle{setting_id::kTriangleLightSampling, 1};
 
 std::vector<LightSampleResult> run(uint64_t scene, const std::vector<LightSampleCase>& cases,
                                    const std::vector<gpu::SpecConstant>& constants = {kNoTextures, kByArea}) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/setting_ids.hpp"
 #include "support/probe.hpp"
 #include "support/statistics.hpp"
 #include "test_glsl_kernels.hpp"
@@ -19,8 +20,8 @@ using gpu::SphereLightResult;
 
 constexpr double kPi = std::numbers::pi;
 // kSphereLightSampling in shared/settings.inc.
-constexpr gpu::SpecConstant kCone{76, 0};
-constexpr gpu::SpecConstant kArea{76, 1};
+constexpr gpu::SpecConstant kCone{setting_id::kSphereLightSampling, 0};
+constexpr gpu::SpecConstant kArea{setting_id::kSphereLightSampling, 1};
 
 std::vector<SphereLightResult> run(const std::vector<SphereLightCase>& cases, gpu::SpecConstant sampling = kCone) {
   const gpu::SpecConstant constants[] = {sampling};

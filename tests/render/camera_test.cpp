@@ -117,8 +117,8 @@ TEST(RenderCamera, LensesMatchTheReference) {
   parallel.focusDistance = 1.0;
   for (const Camera& camera : {perspective, parallel}) {
     const Image image =
-        renderImage(scene, camera, 16, 16, 512, {.estimator = {.filter = PixelFilter::Box, .maxDepth = 1}});
-    const auto reference = oracle::renderReference(scene, camera, 16, 16, 512, {.maxDepth = 1});
+        renderImage(scene, camera, 16, 16, 1024, {.estimator = {.filter = PixelFilter::Box, .maxDepth = 1}});
+    const auto reference = oracle::renderReference(scene, camera, 16, 16, 1024, {.maxDepth = 1});
     EXPECT_TRUE(sameImage(measured(image), measured(reference), {.powerFloor = 0.08}));
   }
 }

@@ -1,17 +1,11 @@
 #include "render/wavefront_kernels.hpp"
 
 #include "isophote_kernels.hpp"
+#include "render/setting_ids.hpp"
 #include "shared/path_types.h"
 
 namespace isophote {
 namespace {
-
-// Ids of shared/settings.inc.
-enum Setting : uint32_t {
-#define ISOPHOTE_SETTING(id, constant, fallback) constant = id,
-#include "shared/settings.inc"
-#undef ISOPHOTE_SETTING
-};
 
 // Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
 bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings) {
@@ -36,15 +30,15 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   for (const FeatureDescription& description : allFeatures()) {
     constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
   }
-  constants.push_back({kSampler, static_cast<uint32_t>(settings.sampler)});
-  constants.push_back({kLightSampling, static_cast<uint32_t>(settings.lightSampling)});
-  constants.push_back({kMultipleScattering, settings.multipleScattering ? 1u : 0u});
-  constants.push_back({kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
-  constants.push_back({kTriangleLightSampling, static_cast<uint32_t>(settings.triangleLightSampling)});
-  constants.push_back({kDirectionSampling, static_cast<uint32_t>(settings.directionSampling)});
-  constants.push_back({kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
-  constants.push_back({kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
-  constants.push_back({kRussianRoulette, settings.russianRoulette ? 1u : 0u});
+  constants.push_back({setting_id::kSampler, static_cast<uint32_t>(settings.sampler)});
+  constants.push_back({setting_id::kLightSampling, static_cast<uint32_t>(settings.lightSampling)});
+  constants.push_back({setting_id::kMultipleScattering, settings.multipleScattering ? 1u : 0u});
+  constants.push_back({setting_id::kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
+  constants.push_back({setting_id::kTriangleLightSampling, static_cast<uint32_t>(settings.triangleLightSampling)});
+  constants.push_back({setting_id::kDirectionSampling, static_cast<uint32_t>(settings.directionSampling)});
+  constants.push_back({setting_id::kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
+  constants.push_back({setting_id::kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
+  constants.push_back({setting_id::kRussianRoulette, settings.russianRoulette ? 1u : 0u});
   return constants;
 }
 
