@@ -310,7 +310,7 @@ TEST(Layers, OverWhiteReflectEverything) {
   }
 }
 
-// Up to the lattice's error: 1e-2 for narrow lobes at the horizon, 1.5e-2 for a sheen that is a hairline there.
+// Up to the errors of tables and lattice; 1.14% measured of a hairline sheen at the horizon (docs/bsdf-layers.md).
 TEST(Layers, NeverReflectMoreThanArrives) {
   std::vector<LayersCase> surfaces;
   for (const double cosine : {1.0, 0.3, 0.05}) {
@@ -329,7 +329,7 @@ TEST(Layers, NeverReflectMoreThanArrives) {
   const auto albedos = sampledAlbedos(surfaces, 38000);
   for (size_t i = 0; i < surfaces.size(); ++i) {
     const bool hairline = surfaces[i].sheenColor.x > 0 && surfaces[i].sheenRoughness < 0.1f;
-    for (int k = 0; k < 3; ++k) EXPECT_LT(albedos[i][k], hairline ? 1.015 : 1.01) << describe(surfaces[i]);
+    for (int k = 0; k < 3; ++k) EXPECT_LT(albedos[i][k], 1 + (hairline ? 1.5e-2 : 1e-2)) << describe(surfaces[i]);
   }
 }
 
