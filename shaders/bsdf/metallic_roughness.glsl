@@ -262,8 +262,10 @@ float coatTransmission(const MetallicRoughness m, const vec2 albedo, const float
   return max(1.0 - (m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost), 0.0);
 }
 
+// No facet reflects nothing at all: an albedo of 0 is that of a scene without facets, whose table is absent.
 float lostBetweenFacets(const vec2 albedo) {
-  return kMultipleScattering == 1u ? max(1.0 - (albedo.x + albedo.y), 0.0) : 0.0;
+  const float kept = albedo.x + albedo.y;
+  return kMultipleScattering == 1u && kept > 0.0 ? max(1.0 - kept, 0.0) : 0.0;
 }
 
 // Share of the normal reflectance that KHR_materials_specular leaves.

@@ -173,7 +173,7 @@ TEST(LectureFigures, PathsOfTenBouncesByCosineAgainstUniformDirections) {
 
 // "Microfacet model BRDF, roughness = 0.2: p = cos / pi, p = D cos / (4 wo.wh)".
 TEST(LectureFigures, MicrofacetsByTheirNormalsAgainstCosine) {
-  const Figure ndf{.samples = 400, .directions = DirectionSampling::Ndf};
+  const Figure ndf{.samples = 800, .directions = DirectionSampling::Ndf};
   Figure cosine = ndf;
   cosine.directions = DirectionSampling::Cosine;
   expectLessNoise(courseScene(courseMetal(0.2f), 6, true), ndf, cosine, 1);
@@ -213,7 +213,7 @@ TEST(LectureFigures, GlassOfRoughnessTwoAndEightTenths) {
     glass.transmission.factor = 1;
     glass.volume.thickness = 1; // solid: it refracts
     const Scene scene = courseScene(glass);
-    const Image image = render(scene, {.samples = 1000, .directions = DirectionSampling::Mixture});
+    const Image image = render(scene, {.samples = 4000, .directions = DirectionSampling::Mixture});
     SCOPED_TRACE(alpha);
     expectSame(image, reference(scene, 10));
   }

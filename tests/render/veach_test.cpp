@@ -54,12 +54,12 @@ Estimate plateMean(const MeasuredImage& image, uint32_t row) {
   return result;
 }
 
-// 12 z-tests of plate means, each of 56 pixels x 1024 samples. A difference of 20% shows; on the smoothest plate, which
+// 12 z-tests of plate means, each of 56 pixels x 3072 samples. A difference of 20% shows; on the smoothest plate, which
 // light sampling alone knows badly, one of 40%.
 TEST(RenderVeach, Test38LightBsdfAndCombinedSamplingAgreePairwise) {
   const Scene scene = loadGltf(assetsFolder() / "veach-plates.gltf");
   const auto image = [&](LightSampling mode, uint64_t seed) {
-    return measured(renderPlates(scene, mode, SamplerKind::Independent, 1024, seed));
+    return measured(renderPlates(scene, mode, SamplerKind::Independent, 3072, seed));
   };
   const std::array<MeasuredImage, 3> images{image(LightSampling::LightsOnly, 1), image(LightSampling::BsdfOnly, 2),
                                             image(LightSampling::Mis, 3)};
