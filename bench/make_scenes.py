@@ -1,18 +1,16 @@
 #!/usr/bin/env python3
 """Writes the procedural scenes of the benchmarks: one room of rough ground and walls, stones and leaves, at three sizes.
 
-usage: bench/make_scenes.py FOLDER [TRIANGLES...]   (70000 700000 3000000)
-
 The shapes are the same at every size, only finer and more: cost per ray then shows how traversal grows with the
 triangle count. Equal arguments give equal files.
 """
+import argparse
 import array
 import json
 import math
 import pathlib
 import random
 import struct
-import sys
 
 HALF, HEIGHT = 5.0, 5.0  # of the room, in metres
 
@@ -141,12 +139,13 @@ def write_glb(path, parts):
 
 
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
-    folder.mkdir(parents=True, exist_ok=True)
-    for count in [int(text) for text in sys.argv[2:]] or [70_000, 700_000, 3_000_000]:
-        path = folder / f"room-{count}.glb"
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("triangles", type=int, nargs="*", default=[70_000, 700_000, 3_000_000])
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    for count in arguments.triangles:
+        path = arguments.folder / f"room-{count}.glb"
         if path.exists():
             continue
         write_glb(path, scene(count))

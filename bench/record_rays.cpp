@@ -1,6 +1,7 @@
 #include "record_rays.hpp"
 
 #include "gpu/commands.hpp"
+#include "isophote/error.hpp"
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
 #include "render/render_view.hpp"
@@ -106,6 +107,7 @@ private:
 
 std::vector<NamedRays> recordRays(const Device& device, const GpuScene& scene, const Camera& camera, uint32_t width,
                                   uint32_t height, uint32_t bounces) {
+  if (scene.features().has(Feature::kHasVolumes)) throw Error("rays of scenes with volumes are not recorded");
   Generation generation(device, scene, camera, width, height);
   std::vector<NamedRays> recorded;
   generation.start();

@@ -6,8 +6,7 @@ usage: scripts/make_assets.py [FOLDER]   (assets/ of this checkout)
 import pathlib
 import sys
 
-from asset_maker import (caustic, cornell_box, demo, many_lights, material_grid, open_air, triangle, veach,
-                         veach_meshes)
+from asset_maker import caustic, cornell_box, demo, many_lights, material_grid, open_air, triangle, veach
 
 
 def main():
@@ -20,7 +19,6 @@ def main():
     veach.scene().write_gltf(folder / "veach-plates.gltf")
     caustic.scene().write_glb(folder / "caustic.glb")
     many_lights.scene().write_glb(folder / "many-lights.glb")
-    veach_meshes.scene().write_glb(folder / "veach.glb")
     open_air.scene().write_glb(folder / "open-air.glb")
     (folder / "sky.hdr").write_bytes(open_air.sky_hdr())
 

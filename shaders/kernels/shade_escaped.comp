@@ -24,14 +24,12 @@ vec3 sphereLightEmission(const SceneRef scene, const RayState ray, const uint in
     path.hit = 1u;
     addAovs(RenderRef(pc.render), path, vec3(0.0), normal, p);
   }
+  const vec3 from = lastScattering(slot, ray);
   float pdfLight = 0.0;
   if (path.pdfSolidAngle > 0.0) {
-    // Boundaries that do nothing may lie between the last scattering and the ray's origin.
-    const float travelled = kHasVolumes ? MediaRef(pc.media).items[slot].travelled : 0.0;
-    pdfLight = sphereLightHitPdf(scene, light, sphere, ray.origin - travelled * ray.direction, ray.direction,
-                                 receiverOf(slot, ray.origin));
+    pdfLight = sphereLightHitPdf(scene, light, sphere, from, ray.direction, receiverOf(slot, from));
   }
-  const vec3 Le = sphereLightRadiance(sphere, ray.origin, ray.direction);
+  const vec3 Le = sphereLightRadiance(sphere, from, ray.direction);
   return path.beta * Le * emissionWeight(path.pdfSolidAngle, pdfLight);
 }
 

@@ -105,10 +105,9 @@ vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState r
   if (all(equal(Le, vec3(0.0)))) return vec3(0.0);
   float pdfLight = 0.0;
   if (path.pdfSolidAngle > 0.0) {
-    // Boundaries that do nothing may lie between the last scattering and the ray's origin.
-    const float travelled = kHasVolumes ? MediaRef(pc.media).items[slot].travelled : 0.0;
-    pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)),
-                                    distance(surface.p, ray.origin) + travelled, receiverOf(slot, ray.origin));
+    const vec3 from = lastScattering(slot, ray);
+    pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)), distance(surface.p, from),
+                                    receiverOf(slot, from));
   }
   return Le * emissionWeight(path.pdfSolidAngle, pdfLight);
 }

@@ -32,9 +32,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { Aov
 // Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
 bool keepsReceivers() { return kHasLightTree && (kHasEmissiveTriangles || kHasSphereLights) && pc.receivers != 0ul; }
 
-// What light sampling was given where the path's ray starts.
-LightReceiver receiverOf(const uint slot, const vec3 rayOrigin) {
-  LightReceiver receiver = LightReceiver(rayOrigin, vec3(0.0));
+// Where the path scattered last; its ray may have started anew since, at boundaries that do nothing.
+vec3 lastScattering(const uint slot, const RayState ray) {
+  return kHasVolumes ? ray.origin - MediaRef(pc.media).items[slot].travelled * ray.direction : ray.origin;
+}
+
+// What light sampling was given at the last scattering, at p.
+LightReceiver receiverOf(const uint slot, const vec3 p) {
+  LightReceiver receiver = LightReceiver(p, vec3(0.0));
   if (keepsReceivers()) receiver = ReceiverRef(pc.receivers).items[slot];
   return receiver;
 }

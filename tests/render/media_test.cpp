@@ -230,6 +230,18 @@ TEST(RenderMedia, ALosslessCloudInTheFurnaceCannotBeSeen) {
   for (const char* channel : {"R", "G", "B"}) EXPECT_TRUE(pixelMeanIs(image, channel, 2, 0.02)) << channel;
 }
 
+// Emission found through a boundary that does nothing is weighed against light sampling from where the path scattered,
+// not from the boundary.
+TEST(RenderMedia, EmittersBehindClearBoundariesKeepTheirWeights) {
+  Scene scene = boxFurnace(glm::vec3(1), glm::vec3(0.5f));
+  addPrimitive(scene, box({-0.9, -0.9, -0.9}, {0.9, 0.9, 0.9}, false, addMaterial(scene, clearVolume(glm::vec3(1)))));
+  for (const auto sampling : {TriangleLightSampling::Area, TriangleLightSampling::SolidAngle}) {
+    const EstimatorSettings estimator{.triangleLightSampling = sampling, .maxDepth = 1};
+    const Image image = renderImage(scene, boxFurnaceCamera(), 16, 16, 256, {.estimator = estimator});
+    EXPECT_TRUE(pixelMeanIs(image, "G", 1.5, 0.01)) << static_cast<int>(sampling);
+  }
+}
+
 // A lamp inside absorbing fog lights the floor of it with exactly e^(-sigma d).
 TEST(RenderMedia, ShadowRaysInsideAVolumeAreAbsorbed) {
   Scene scene;

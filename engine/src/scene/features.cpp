@@ -25,7 +25,7 @@ float smallestGreen(const ImageData& image) {
 /// that Vulkan allows), so that the feature is never missing on the device.
 constexpr float kFilteringMargin = 1.01f;
 
-/// Up to this many lights are chosen by power alone: the tree's descent costs more than it gains (docs/lights.md).
+/// Up to this many lights are chosen by power alone (docs/many-lights.md, which also says where more should be).
 constexpr uint64_t kFewLights = 16;
 
 bool canBeMirror(const Scene& scene, const Material& material) {
