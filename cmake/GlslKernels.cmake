@@ -1,9 +1,14 @@
 # isophote_embed_kernels(target file.comp...): glslang -> spirv-val -> a C++ table linked into `target`.
+# A folder in the target's property ISOPHOTE_SHADER_OVERRIDES is searched for includes before the product's shaders.
 # The kernel of x.comp is <target>_kernels::kernelSource("x"), declared in "<target>_kernels.hpp".
 function(isophote_embed_kernels target)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels)
   file(MAKE_DIRECTORY ${out})
-  set(flags -V --target-env vulkan1.3 --quiet -I${PROJECT_SOURCE_DIR}/shaders -I${PROJECT_SOURCE_DIR}/tests)
+  get_target_property(overrides ${target} ISOPHOTE_SHADER_OVERRIDES)
+  if(overrides)
+    set(override_flags -I${overrides})
+  endif()
+  set(flags -V --target-env vulkan1.3 --quiet ${override_flags} -I${PROJECT_SOURCE_DIR}/shaders -I${PROJECT_SOURCE_DIR}/tests)
   if(ISOPHOTE_CHECK_BOUNDS)
     list(APPEND flags -DISOPHOTE_CHECK_BOUNDS=1)
   endif()

@@ -38,7 +38,7 @@ struct LayersAtWo {
 };
 
 bool hasLayers(const SurfaceBsdf bsdf) {
-  return kHasLayers && ((kHasClearcoat && bsdf.coat.amount > 0.0) || (kHasSheen && sheenAmount(bsdf.sheen) > 0.0));
+  return (kHasClearcoat && bsdf.coat.amount > 0.0) || (kHasSheen && sheenAmount(bsdf.sheen) > 0.0);
 }
 
 /// Maps a uniform number beyond `probability` back to [0, 1).
@@ -161,7 +161,7 @@ BsdfValue evaluateLayered(const SceneRef scene, const SurfaceBsdf bsdf, const La
 
 /// Returns f |cos wi| and the sampling density of the continuous lobes.
 BsdfValue evaluateBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
-  if (hasLayers(bsdf)) {
+  if (kHasLayers && hasLayers(bsdf)) {
     if (min(woLocal.z, abs(wiLocal.z)) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
     return evaluateLayered(scene, bsdf, layersAt(scene, bsdf, woLocal), woLocal, wiLocal);
   }
@@ -228,7 +228,7 @@ BsdfSample sampleLayered(const SceneRef scene, const SurfaceBsdf bsdf, const Lay
 /// @param u     in [0, 1)^2
 BsdfSample sampleBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const float uLobe,
                       const vec2 u) {
-  if (hasLayers(bsdf) && woLocal.z >= kMinCosine) {
+  if (kHasLayers && hasLayers(bsdf) && woLocal.z >= kMinCosine) {
     return sampleLayered(scene, bsdf, layersAt(scene, bsdf, woLocal), woLocal, uLobe, u);
   }
   return sampleBase(scene, bsdf.base, woLocal, uLobe, u);

@@ -165,7 +165,12 @@ void main() {
   const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
   vec3 kept;
   const uint channel = dispersedChannel(scene, surface, key, slot, kept);
-  const float eta = kHasVolumes ? etaAt(scene, surface, crossing, channel) : etaInAir(scene, surface, channel);
+  float eta = 1.0;
+  if (kHasVolumes) {
+    eta = etaAt(scene, surface, crossing, channel);
+  } else if (kHasSpecular) {
+    eta = etaInAir(scene, surface, channel);
+  }
   SurfaceMaterial material = materialAt(scene, surface, eta, channel);
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {
@@ -183,9 +188,7 @@ void main() {
   if (alive) {
     const Frame frame = shadingFrame(scene, surface, ns);
     const vec3 woLocal = toLocal(frame, wo);
-    if (kHasClearcoat && material.bsdf.coat.amount > 0.0) {
-      material.bsdf.coat.normalLocal = toLocal(frame, clearcoatNormal(scene, surface, wo));
-    }
+    if (kHasClearcoat) setClearcoatNormal(material, scene, surface, wo, frame);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
       // Lights on the far side of glass are sampled too.

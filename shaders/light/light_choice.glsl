@@ -9,14 +9,14 @@
 const uint kSelectUniform = 0u; // values of kLightSelection, as isophote::LightSelection
 const uint kSelectTree = 2u;
 
+const bool kMayChooseByTree = kHasLightTree && kLightSelection == kSelectTree;
+
 /// Whether the choice depends on the receiver. The tree is absent under an all-features kernel.
-bool choosesByTree(const SceneRef scene) {
-  return kHasLightTree && kLightSelection == kSelectTree && scene.view.lightTree != 0ul;
-}
+bool hasTree(const SceneRef scene) { return scene.view.lightTree != 0ul; }
 
 /// Chooses one of the scene's lights, of which there is at least one. @param bits  two uniform 32-bit fractions
 LightChoice chooseLight(const SceneRef scene, const LightReceiver receiver, uvec2 bits) {
-  if (choosesByTree(scene)) return chooseFromLightTree(scene, receiver, bits);
+  if (kMayChooseByTree && hasTree(scene)) return chooseFromLightTree(scene, receiver, bits);
   if (kLightSelection == kSelectUniform) {
     uint index;
     uint fraction;
@@ -29,7 +29,7 @@ LightChoice chooseLight(const SceneRef scene, const LightReceiver receiver, uvec
 /// Probability with which chooseLight chooses light `index`; 0 where the scene has no such light.
 float lightPmf(const SceneRef scene, const LightReceiver receiver, uint index) {
   if (index >= scene.view.lightCount) return 0.0;
-  if (choosesByTree(scene)) return lightTreePmf(scene, receiver, index);
+  if (kMayChooseByTree && hasTree(scene)) return lightTreePmf(scene, receiver, index);
   if (kLightSelection == kSelectUniform) return 1.0 / float(scene.view.lightCount);
   return aliasPmf(scene, index);
 }

@@ -1,0 +1,47 @@
+// A control for the kernels' specialisation: the scattering of a renderer that knows nothing but Lambert's law. Found
+// before the product's file of this name when the control is compiled.
+#ifndef ISOPHOTE_BSDF_SURFACE_BSDF_GLSL
+#define ISOPHOTE_BSDF_SURFACE_BSDF_GLSL
+
+#include "math/constants.glsl"
+#include "sampling/warp.glsl"
+#include "shared/buffers.glsl"
+
+const float kMinCosine = 1e-7;
+
+struct SurfaceBsdf {
+  vec3 reflectance;
+};
+
+struct BsdfValue {
+  vec3 fCos;
+  float pdfSolidAngle;
+};
+
+struct BsdfSample {
+  vec3 wiLocal;
+  vec3 weight;
+  float pdfSolidAngle;
+  bool delta;
+  bool valid;
+  float eta;
+};
+
+bool transmits(const SurfaceBsdf bsdf) { return false; }
+
+BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
+  if (min(woLocal.z, wiLocal.z) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
+  const float density = kInvPi * wiLocal.z;
+  return BsdfValue(bsdf.reflectance * density, density);
+}
+
+BsdfSample sampleDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const float uLobe,
+                           const vec2 u) {
+  if (woLocal.z < kMinCosine) return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0);
+  const vec3 wi = sampleCosineHemisphere(u);
+  const BsdfValue value = evaluateDirection(scene, bsdf, woLocal, wi);
+  const vec3 weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
+  return BsdfSample(wi, weight, value.pdfSolidAngle, false, max(weight.x, max(weight.y, weight.z)) > 0.0, 1.0);
+}
+
+#endif
