@@ -26,6 +26,7 @@ constexpr const char* kExamples = R"(Examples:
   isophote render model.glb -o image.png --sky 40,120 --exposure -13      a clear day
   isophote render model.glb -o image.png --env-color 1,1,1                for an asset without lights
   isophote render scene.glb -o part.exr --sample-range 64:128             the second 64 samples, for another machine
+  isophote render scene.glb -o image.exr --spp 4096 --checkpoint image.ckpt --resume      safe against power cuts
   isophote render scene.glb -o direct.exr --max-depth 1 --stats stats.json
 
 Ctrl-C ends the render and saves the image (exit code 130); a second one aborts.)";
@@ -54,6 +55,7 @@ void checkOutputs(const RenderOptions& options) {
       throw UsageError(fmt::format("--output: '{}' is neither .exr nor .png", file));
   }
   if (!options.statsFile.empty()) files.push_back(options.statsFile);
+  if (!options.checkpoint.file.empty()) files.push_back(options.checkpoint.file);
   for (size_t i = 0; i < files.size(); ++i) {
     if (std::find(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), files[i]) !=
         files.begin() + static_cast<std::ptrdiff_t>(i)) {
@@ -71,6 +73,7 @@ void refuseBias(const Settings& settings) {
 void refuseOverwritingInputs(const RenderOptions& options, const LoadedScene& loaded) {
   for (const std::string& file : options.outputs) refuseOverwriting(file, loaded.files);
   if (!options.statsFile.empty()) refuseOverwriting(options.statsFile, loaded.files);
+  if (!options.checkpoint.file.empty()) refuseOverwriting(options.checkpoint.file, loaded.files);
 }
 
 nlohmann::ordered_json environmentJson(const EnvironmentOptions& options) {
@@ -78,6 +81,11 @@ nlohmann::ordered_json environmentJson(const EnvironmentOptions& options) {
   if (!options.file.empty()) json["file"] = options.file;
   if (options.color) json["color"] = {options.color->r, options.color->g, options.color->b};
   if (options.intensity) json["intensity"] = *options.intensity;
+  if (options.sky) {
+    json["sky"] = {{"elevation_degrees", options.sky->elevationDegrees},
+                   {"azimuth_degrees", options.sky->azimuthDegrees},
+                   {"turbidity", options.sky->turbidity}};
+  }
   if (options.rotationDegrees) json["rotation_degrees"] = *options.rotationDegrees;
   return json;
 }
@@ -208,7 +216,8 @@ int runRender(const RenderOptions& options) {
   const StopRule rule = options.stopRule();
   {
     ProgressLine progress(options.quiet);
-    report.result = renderUntil(tracer, report.view.camera, film, rule, progress);
+    CheckpointKeeper checkpoints(options.checkpoint, sampleIdentity(report, rule.samples.first));
+    report.result = renderUntil(tracer, report.view.camera, film, rule, progress, &checkpoints);
   }
   report.statistics = tracer.statistics();
   report.features = tracer.features();

@@ -92,6 +92,26 @@ void addStopFlags(CLI::App& command, RenderOptions& options) {
       ->group(kGroup);
 }
 
+void addCheckpointFlags(CLI::App& command, CheckpointOptions& options) {
+  constexpr const char* kGroup = "Long renders";
+  CLI::Option* file = command
+                          .add_option("--checkpoint", options.file,
+                                      "Keep the render's exact state in this file while it runs, and at its end")
+                          ->type_name("F")
+                          ->group(kGroup);
+  addValue(
+      command, "--checkpoint-every", "SECONDS",
+      [&options](const std::string& text) { options.everySeconds = parseNumber(text, 0, 1e9); }, "How often (60)")
+      ->needs(file)
+      ->group(kGroup);
+  command
+      .add_flag("--resume", options.resume,
+                "Go on from the checkpoint, if there is one, to the bits of a render without a break; more --spp than "
+                "before are added")
+      ->needs(file)
+      ->group(kGroup);
+}
+
 void addEstimatorFlags(CLI::App& command, RenderOptions& options) {
   constexpr const char* kGroup = "Estimator";
   const auto addSetting = [&](const char* key, const char* type, const char* description) {
@@ -138,6 +158,7 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
   addImageFlags(command, options);
   addCameraFlags(command, options.camera);
   addStopFlags(command, options);
+  addCheckpointFlags(command, options.checkpoint);
   addEstimatorFlags(command, options);
   addVariantFlag(command, options.variant);
   addEnvironmentFlags(command, options.environment);

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "checkpoint_keeper.hpp"
 #include "isophote/image.hpp"
 #include "scene_source.hpp"
 #include "setting_table.hpp"
@@ -29,6 +30,7 @@ struct RenderOptions {
   std::optional<double> targetError;
   double confidence = 0.95;
   std::optional<double> seconds;
+  CheckpointOptions checkpoint;
   Settings settings;
   float exposureEv = 0;
   ToneMap toneMap = ToneMap::Neutral;

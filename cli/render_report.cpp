@@ -90,6 +90,23 @@ const char* outcomeName(Outcome outcome) {
   return "";
 }
 
+/// What was asked for: the estimator's settings, the image, the camera and the light around the scene.
+Json requestJson(const RenderReport& report) {
+  Json settings = settingsJson(report.settings, false);
+  settings["image"] = sizeJson(report);
+  settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
+  const Camera& camera = report.view.camera;
+  if (camera.kind == CameraKind::Panorama) settings["panorama"] = true;
+  if (camera.hasLens()) {
+    settings["lens"] = {{"radius", camera.lensRadius},
+                        {"focus_distance", camera.focusDistance},
+                        {"aperture_blades", camera.apertureBlades}};
+  }
+  settings["environment"] = report.environment;
+  if (report.variant) settings["variant"] = *report.variant;
+  return settings;
+}
+
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 } // namespace
@@ -157,23 +174,22 @@ Json statsJson(const RenderReport& report) {
           {"scene_features_left_out", leftOutJson(report.features)}};
 }
 
+std::string sampleIdentity(const RenderReport& report, uint32_t firstSample) {
+  Json identity = {{"version", kVersion},
+                   {"scene", report.sceneHash},
+                   {"device", report.device.name},
+                   {"driver", report.device.driver},
+                   {"seed", report.settings.estimator.seed},
+                   {"first_sample", firstSample}};
+  identity.update(requestJson(report));
+  return dump(identity);
+}
+
 std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
-  Json settings = settingsJson(report.settings, false);
-  settings["image"] = sizeJson(report);
-  settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
-  const Camera& camera = report.view.camera;
-  if (camera.kind == CameraKind::Panorama) settings["panorama"] = true;
-  if (camera.hasLens()) {
-    settings["lens"] = {{"radius", camera.lensRadius},
-                        {"focus_distance", camera.focusDistance},
-                        {"aperture_blades", camera.apertureBlades}};
-  }
-  settings["environment"] = report.environment;
-  if (report.variant) settings["variant"] = *report.variant;
   return {{"isophote.version", kVersion},
           {"isophote.scene", report.scene},
           {"isophote.sceneHash", report.sceneHash},
-          {"isophote.settings", dump(settings)},
+          {"isophote.settings", dump(requestJson(report))},
           {"isophote.device", fmt::format("{}, {}", report.device.name, report.device.driver)},
           {"isophote.features", dump(report.features.names())},
           {"isophote.seed", std::to_string(report.settings.estimator.seed)},

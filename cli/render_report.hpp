@@ -50,6 +50,9 @@ struct RenderReport {
 /// isophote.version, .scene, .sceneHash, .settings, .device, .features, .seed, .sampleRange, .error, .bias, .status
 [[nodiscard]] std::map<std::string, std::string> imageAttributes(const RenderReport& report);
 
+/// All that the bits of a pixel's samples depend on, and the first of them: JSON of one object.
+[[nodiscard]] std::string sampleIdentity(const RenderReport& report, uint32_t firstSample);
+
 /// The counters by name.
 [[nodiscard]] nlohmann::ordered_json statusJson(const StatusCounters& status);
 

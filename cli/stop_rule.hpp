@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "checkpoint_keeper.hpp"
 #include "isophote/path_tracer.hpp"
 #include "progress_line.hpp"
 
@@ -33,8 +34,10 @@ struct RenderResult {
 ///
 /// With a target error, samples are taken in passes of whole rounds over the replicates, each a quarter of what there
 /// is, and the error is looked at between passes only. So where a render stops depends on the scene and seed, not on
-/// the machine's speed, and every replicate holds the same number of samples.
+/// the machine's speed, and every replicate holds the same number of samples. A render that goes on from a checkpoint
+/// stops where it would have without the break.
+/// @param checkpoints  none are kept where null
 [[nodiscard]] RenderResult renderUntil(PathTracer& tracer, const Camera& camera, Film& film, const StopRule& rule,
-                                       ProgressLine& progress);
+                                       ProgressLine& progress, CheckpointKeeper* checkpoints = nullptr);
 
 } // namespace isophote::cli

@@ -10,6 +10,7 @@ set(CMAKE_MESSAGE_LOG_LEVEL NOTICE) # Debian's Imath package lists a Python libr
 find_package(OpenEXR REQUIRED)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(SPIRV-Tools-opt REQUIRED)
+find_package(ZLIB REQUIRED)
 pkg_check_modules(STB REQUIRED IMPORTED_TARGET GLOBAL stb)
 find_program(GLSLANG glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)

@@ -1,8 +1,12 @@
 // Where samples end up: exact sums per pixel, and what can be said of the image from them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
 
 #include "isophote/device.hpp"
 #include "isophote/image.hpp"
@@ -28,6 +32,20 @@ struct FilmOptions {
   bool aovs = true; ///< albedo, normal, depth and position of the first hit
 };
 
+/// A film's exact sums on the host: what a checkpoint keeps, and what merging adds.
+struct FilmSums {
+  FilmOptions options;               ///< crop filled in
+  double radiancePerUnit = 0;        ///< of the integers, a power of two; 0 while there are no samples
+  double lengthPerUnit = 0;          ///< likewise
+  glm::dvec3 worldOrigin{0};         ///< that positions are relative to
+  std::vector<std::byte> replicates; ///< ReplicateSum of shared/film_types.h
+  std::vector<std::byte> aovs;       ///< AovSum; empty without those layers
+};
+
+/// Adds the samples of `other`, which must be others than those of `sums`, of the same image.
+/// @throws UsageError where the images differ in size or scale; LimitError where a sum overflows
+void addSums(FilmSums& sums, const FilmSums& other);
+
 /// Per pixel and independent replicate, 64-bit fixed-point sums that are exact and associative. Borrows the Device.
 class Film {
 public:
@@ -40,6 +58,11 @@ public:
   [[nodiscard]] const FilmOptions& options() const;
   [[nodiscard]] uint64_t bytes() const;
   void clear();
+
+  /// All that the film holds; wait for PathTracer to finish first.
+  [[nodiscard]] FilmSums sums() const;
+  /// Replaces what the film holds. @throws UsageError where the image is another one
+  void restore(const FilmSums& sums);
 
   /// Mean, standard error, 95% interval, sample count, trust and AOVs as the channels of interface.md.
   /// Reads the sums back once; wait for PathTracer to finish first.

@@ -81,6 +81,10 @@ public:
   void finish(); ///< starts no new sample and completes those in flight
   void cancel();
 
+  /// What is left of the last render's samples: none where it was completed. Rendering this range adds exactly the
+  /// samples that are missing. Of renders that ended otherwise than by cancel.
+  [[nodiscard]] SampleRange left() const;
+
   [[nodiscard]] RenderStatistics statistics() const;
   /// The features the kernels were specialised for.
   [[nodiscard]] FeatureSet features() const;

@@ -47,12 +47,16 @@ struct ExecutionSettings {
 /// A rectangle of the full image in pixels, [x0, x1) x [y0, y1), row 0 at the top.
 struct PixelRect {
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool operator==(const PixelRect&) const = default;
 };
 
 /// Samples [first, last) of every pixel.
 struct SampleRange {
   uint32_t first = 0;
   uint32_t last = 0;
+  uint64_t begun =
+      0; ///< places in the order of rendering at which sample `first` is done already; see PathTracer::left
+  bool operator==(const SampleRange&) const = default;
 };
 
 } // namespace isophote

@@ -64,6 +64,40 @@ void Film::clear() {
   impl_->scale.reset();
 }
 
+namespace {
+
+std::vector<std::byte> readAll(const Device& device, const gpu::Buffer& buffer) {
+  std::vector<std::byte> bytes(buffer.bytes());
+  if (!bytes.empty()) gpu::readBuffer(device, buffer, 0, bytes);
+  return bytes;
+}
+
+} // namespace
+
+FilmSums Film::sums() const {
+  FilmSums sums{.options = impl_->options};
+  if (impl_->scale) {
+    sums.radiancePerUnit = impl_->scale->radiancePerUnit;
+    sums.lengthPerUnit = impl_->scale->lengthPerUnit;
+    sums.worldOrigin = impl_->scale->worldOrigin;
+  }
+  sums.replicates = readAll(*impl_->device, impl_->replicates);
+  sums.aovs = readAll(*impl_->device, impl_->aovs);
+  return sums;
+}
+
+void Film::restore(const FilmSums& sums) {
+  const FilmOptions& own = impl_->options;
+  if (sums.options.width != own.width || sums.options.height != own.height || !(sums.options.crop == own.crop) ||
+      sums.replicates.size() != impl_->replicates.bytes() || sums.aovs.size() != impl_->aovs.bytes()) {
+    throw UsageError("the samples are of an image of another size, crop or set of layers");
+  }
+  gpu::writeBuffer(*impl_->device, impl_->replicates, 0, sums.replicates);
+  if (!sums.aovs.empty()) gpu::writeBuffer(*impl_->device, impl_->aovs, 0, sums.aovs);
+  impl_->scale.reset();
+  if (sums.radiancePerUnit > 0) impl_->scale = {sums.radiancePerUnit, sums.lengthPerUnit, sums.worldOrigin};
+}
+
 gpu::FilmArgs Film::Impl::arguments(uint64_t target) const {
   return {.replicates = replicates.address(),
           .target = target,

@@ -11,15 +11,10 @@
 namespace isophote {
 namespace {
 
-std::vector<std::byte> readAll(const Device& device, const gpu::Buffer& buffer) {
-  std::vector<std::byte> bytes(buffer.bytes());
-  if (!bytes.empty()) gpu::readBuffer(device, buffer, 0, bytes);
-  return bytes;
-}
-
-void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Image& image) {
-  const uint32_t pixels = film.pixelCount();
-  const double perUnit = film.scale ? film.scale->radiancePerUnit : 0.0;
+void resolveRadiance(const FilmSums& film, Image& image) {
+  const auto* sums = reinterpret_cast<const gpu::ReplicateSum*>(film.replicates.data());
+  const size_t pixels = film.replicates.size() / sizeof(gpu::ReplicateSum) / gpu::kReplicateCount;
+  const double perUnit = film.radiancePerUnit;
   constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
   for (const char* color : kColors) image.channels.push_back({color, std::vector<float>(pixels)});
   image.channels.push_back({"A", std::vector<float>(pixels)});
@@ -29,8 +24,8 @@ void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Imag
     image.channels.push_back({std::string("ci95.") + color, std::vector<float>(pixels)});
   image.channels.push_back({"sampleCount.Y", std::vector<float>(pixels)});
   image.channels.push_back({"trust.Y", std::vector<float>(pixels)});
-  for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
-    const gpu::ReplicateSum* sum = sums + size_t{pixel} * gpu::kReplicateCount;
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    const gpu::ReplicateSum* sum = sums + pixel * gpu::kReplicateCount;
     std::array<std::array<int64_t, gpu::kReplicateCount>, 3> values{};
     std::array<uint32_t, gpu::kReplicateCount> counts{};
     uint64_t samples = 0;
@@ -58,17 +53,18 @@ void resolveRadiance(const Film::Impl& film, const gpu::ReplicateSum* sums, Imag
   }
 }
 
-void resolveAovs(const Film::Impl& film, const gpu::AovSum* sums, Image& image) {
-  const uint32_t pixels = film.pixelCount();
+void resolveAovs(const FilmSums& film, Image& image) {
+  const auto* sums = reinterpret_cast<const gpu::AovSum*>(film.aovs.data());
+  const size_t pixels = film.aovs.size() / sizeof(gpu::AovSum);
   const size_t first = image.channels.size();
   for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z",
                            "position.X", "position.Y", "position.Z"}) {
     image.channels.push_back({name, std::vector<float>(pixels)});
   }
-  if (!film.scale) return;
+  if (!(film.radiancePerUnit > 0)) return;
   const double unit = std::ldexp(1.0, -static_cast<int>(gpu::kRadianceFractionBits));
-  const double length = film.scale->lengthPerUnit;
-  for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
+  const double length = film.lengthPerUnit;
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
     const gpu::AovSum& sum = sums[pixel];
     if (sum.count == 0) continue;
     const auto set = [&](size_t channel, double value) {
@@ -78,8 +74,7 @@ void resolveAovs(const Film::Impl& film, const gpu::AovSum* sums, Image& image) 
     for (int c = 0; c < 3; ++c) {
       set(static_cast<size_t>(c), static_cast<double>(sum.albedo[c]) * unit / sum.count);
       normal[c] = static_cast<double>(sum.normal[c]);
-      set(static_cast<size_t>(7 + c),
-          static_cast<double>(sum.position[c]) * length / sum.count + film.scale->worldOrigin[c]);
+      set(static_cast<size_t>(7 + c), static_cast<double>(sum.position[c]) * length / sum.count + film.worldOrigin[c]);
     }
     if (glm::length(normal) > 0) normal = glm::normalize(normal);
     for (int c = 0; c < 3; ++c) set(static_cast<size_t>(3 + c), normal[c]);
@@ -93,12 +88,9 @@ Image Film::resolve() const {
   Image image;
   image.width = impl_->cropWidth;
   image.height = impl_->cropHeight;
-  const auto replicates = readAll(*impl_->device, impl_->replicates);
-  resolveRadiance(*impl_, reinterpret_cast<const gpu::ReplicateSum*>(replicates.data()), image);
-  if (impl_->aovs.bytes() != 0) {
-    const auto aovs = readAll(*impl_->device, impl_->aovs);
-    resolveAovs(*impl_, reinterpret_cast<const gpu::AovSum*>(aovs.data()), image);
-  }
+  const FilmSums film = sums();
+  resolveRadiance(film, image);
+  if (!film.aovs.empty()) resolveAovs(film, image);
   return image;
 }
 

@@ -27,13 +27,14 @@ PathPool::PathPool(const Device& device, uint32_t pathCount, const PathPoolParts
       filterTable(device, gpu::kFilterTableSize * sizeof(float), Memory::Device, "pool.filterTable"),
       readback(device, sizeof(gpu::WaveState), Memory::Host, "pool.readback") {}
 
-void PathPool::reset(const Device& device) const {
+void PathPool::reset(const Device& device, uint64_t firstWork) const {
   std::vector<uint32_t> slots(capacity);
   std::iota(slots.begin(), slots.end(), 0u);
   gpu::writeBuffer(device, queues, uint64_t{gpu::kQueueFree} * capacity * sizeof(uint32_t),
                    std::as_bytes(std::span(slots)));
   gpu::WaveState state{};
   state.counts[gpu::kQueueFree] = capacity;
+  state.nextWork = firstWork;
   for (auto& dispatch : state.dispatches) dispatch = {0, 1, 1};
   gpu::writeBuffer(device, wave, 0, std::as_bytes(std::span(&state, 1)));
 }

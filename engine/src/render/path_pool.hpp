@@ -37,7 +37,7 @@ struct PathPool {
   PathPool(const Device& device, uint32_t paths, const PathPoolParts& parts);
 
   /// All slots free, counters zero.
-  void reset(const Device& device) const;
+  void reset(const Device& device, uint64_t firstWork) const;
   [[nodiscard]] std::vector<BufferUse> buffers() const;
   [[nodiscard]] uint64_t bytes() const;
   /// Of state and queue entries for one path.

@@ -53,6 +53,8 @@ struct PathTracer::Impl {
   gpu::CommandStream commands;
 
   Film* film = nullptr; ///< of the render under way
+  SampleRange asked;    ///< of it
+  SampleRange left;     ///< of the last one
   uint64_t workEnd = 0;
   uint32_t wavesPerSubmit = 1;
   uint32_t activeLimit = 0;
@@ -129,6 +131,7 @@ void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) 
   const gpu::RenderView view =
       renderView(scene.impl(), film->impl(), camera, range, estimator, pool->filterTable.address());
   workEnd = view.workEnd;
+  if (range.begun > workEnd) throw UsageError("more of the first sample is done than there is");
   gpu::writeBuffer(device, pool->render, 0, std::as_bytes(std::span(&view, 1)));
 }
 
@@ -220,6 +223,12 @@ void PathTracer::Impl::adapt() {
 
 // Moves the finished render's counters into the totals.
 void PathTracer::Impl::retire() {
+  left = {asked.last, asked.last};
+  if (last.nextWork < workEnd) {
+    const uint64_t places = workEnd / (asked.last - asked.first); // of one sample
+    left.first = asked.first + static_cast<uint32_t>(last.nextWork / places);
+    left.begun = last.nextWork % places;
+  }
   totals.primaryRays += last.primaryRays;
   totals.bounceRays += last.bounceRays;
   totals.shadowRays += last.shadowRays;
@@ -254,8 +263,10 @@ void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   impl_->accepting = true;
   impl_->writeRenderView(camera, range);
   impl_->findCameraMedia();
-  impl_->pool->reset(impl_->device);
+  impl_->pool->reset(impl_->device, range.begun);
+  impl_->asked = range;
   impl_->last = {};
+  impl_->last.nextWork = range.begun;
   impl_->last.counts[gpu::kQueueFree] = impl_->pool->capacity;
 }
 
@@ -303,6 +314,8 @@ bool PathTracer::render(const Camera& camera, Film& film, SampleRange range,
   }
   return completed;
 }
+
+SampleRange PathTracer::left() const { return impl_->left; }
 
 RenderStatistics PathTracer::statistics() const {
   RenderStatistics statistics = impl_->totals;

@@ -1,0 +1,136 @@
+// Layout: the magic line, the length of the JSON head (64 bits, little endian), the head, the film's bytes, and a
+// CRC-32 (ISO 3309, as zlib has it) of all before. Files are read on the kind of machine that wrote them.
+#include "isophote/checkpoint.hpp"
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include "io/atomic_file.hpp"
+#include "isophote/error.hpp"
+
+namespace isophote {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::string_view kMagic = "isophote checkpoint 1\n";
+
+/// Writes and keeps the checksum of what was written.
+class CheckedFile {
+public:
+  explicit CheckedFile(const std::filesystem::path& file) : file_(file) {}
+  void write(const void* bytes, size_t count) {
+    file_.write(bytes, count);
+    checksum_ = crc32_z(checksum_, static_cast<const Bytef*>(bytes), count);
+  }
+  void commit() {
+    const auto checksum = static_cast<uint32_t>(checksum_);
+    file_.write(&checksum, sizeof(checksum));
+    file_.commit();
+  }
+
+private:
+  io::AtomicFile file_;
+  uLong checksum_ = crc32_z(0, nullptr, 0);
+};
+
+// Doubles are stored by their bits: the digits of JSON would do, but these need no argument.
+Json bits(double value) { return std::bit_cast<uint64_t>(value); }
+double fromBits(const Json& json) { return std::bit_cast<double>(json.get<uint64_t>()); }
+
+Json headOf(const Checkpoint& checkpoint) {
+  const FilmSums& sums = checkpoint.sums;
+  const PixelRect& crop = sums.options.crop;
+  return {{"identity", checkpoint.identity},
+          {"left", {checkpoint.left.first, checkpoint.left.last, checkpoint.left.begun}},
+          {"seconds", bits(checkpoint.seconds)},
+          {"size", {sums.options.width, sums.options.height}},
+          {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
+          {"aovs", sums.options.aovs},
+          {"radiance_per_unit", bits(sums.radiancePerUnit)},
+          {"length_per_unit", bits(sums.lengthPerUnit)},
+          {"world_origin", {bits(sums.worldOrigin.x), bits(sums.worldOrigin.y), bits(sums.worldOrigin.z)}},
+          {"replicate_bytes", sums.replicates.size()},
+          {"aov_bytes", sums.aovs.size()}};
+}
+
+Checkpoint fromHead(const Json& head) {
+  Checkpoint checkpoint;
+  checkpoint.identity = head.at("identity");
+  checkpoint.left = {head.at("left").at(0), head.at("left").at(1), head.at("left").at(2)};
+  checkpoint.seconds = fromBits(head.at("seconds"));
+  FilmSums& sums = checkpoint.sums;
+  sums.options.width = head.at("size").at(0);
+  sums.options.height = head.at("size").at(1);
+  const Json& crop = head.at("crop");
+  sums.options.crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
+  sums.options.aovs = head.at("aovs");
+  sums.radiancePerUnit = fromBits(head.at("radiance_per_unit"));
+  sums.lengthPerUnit = fromBits(head.at("length_per_unit"));
+  for (int axis = 0; axis < 3; ++axis) {
+    sums.worldOrigin[axis] = fromBits(head.at("world_origin").at(static_cast<size_t>(axis)));
+  }
+  return checkpoint;
+}
+
+/// All bytes before the checksum, which has been compared.
+std::string checkedBytes(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) throw SceneError(file.string(), "", "a readable checkpoint");
+  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!bytes.starts_with(kMagic)) throw SceneError(file.string(), "", "a checkpoint of this version of Isophote");
+  uint32_t expected = 0;
+  if (bytes.size() < kMagic.size() + sizeof(uint64_t) + sizeof(expected)) {
+    throw SceneError(file.string(), "", "a whole checkpoint, this one ends early");
+  }
+  std::memcpy(&expected, bytes.data() + bytes.size() - sizeof(expected), sizeof(expected));
+  bytes.resize(bytes.size() - sizeof(expected));
+  const uLong actual = crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  if (actual != expected) throw SceneError(file.string(), "", "a whole checkpoint, this one is cut off or damaged");
+  return bytes;
+}
+
+} // namespace
+
+void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+  const std::string head = headOf(checkpoint).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const uint64_t length = head.size();
+  CheckedFile out(file);
+  out.write(kMagic.data(), kMagic.size());
+  out.write(&length, sizeof(length));
+  out.write(head.data(), head.size());
+  out.write(checkpoint.sums.replicates.data(), checkpoint.sums.replicates.size());
+  out.write(checkpoint.sums.aovs.data(), checkpoint.sums.aovs.size());
+  out.commit();
+}
+
+Checkpoint readCheckpoint(const std::filesystem::path& file) {
+  const std::string bytes = checkedBytes(file);
+  const size_t start = kMagic.size() + sizeof(uint64_t);
+  uint64_t length = 0;
+  std::memcpy(&length, bytes.data() + kMagic.size(), sizeof(length));
+  try {
+    if (length > bytes.size() - start) throw std::runtime_error("the head is longer than the file");
+    const Json head = Json::parse(bytes.data() + start, bytes.data() + start + length);
+    Checkpoint checkpoint = fromHead(head);
+    const size_t replicates = head.at("replicate_bytes");
+    const size_t aovs = head.at("aov_bytes");
+    const size_t film = bytes.size() - start - length;
+    if (replicates > film || aovs != film - replicates) throw std::runtime_error("the film is of another size");
+    const auto* at = reinterpret_cast<const std::byte*>(bytes.data()) + start + length;
+    checkpoint.sums.replicates.assign(at, at + replicates);
+    checkpoint.sums.aovs.assign(at + replicates, at + replicates + aovs);
+    return checkpoint;
+  } catch (const std::exception& error) {
+    throw SceneError(file.string(), "", std::string("a checkpoint: ") + error.what());
+  }
+}
+
+} // namespace isophote
