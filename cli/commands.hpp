@@ -15,6 +15,7 @@ void addDevicesCommand(CLI::App& program, Action& action);
 void addCompareCommand(CLI::App& program, Action& action);
 void addBenchCommand(CLI::App& program, Action& action);
 void addCalibrateCommand(CLI::App& program, Action& action);
+void addMergeCommand(CLI::App& program, Action& action);
 void addSettingsCommand(CLI::App& program, Action& action);
 
 } // namespace isophote::cli

@@ -229,6 +229,7 @@ int runRender(const RenderOptions& options) {
   countSamples(image, rule.samples, report);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);
+  if (options.sampleRange) storeSums(image, film.sums()); // a shard, to be merged
   writeImages(options, image, environment);
   report.seconds.write = watch.lap();
   if (!options.statsFile.empty()) {

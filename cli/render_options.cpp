@@ -68,7 +68,7 @@ void addStopFlags(CLI::App& command, RenderOptions& options) {
   addValue(
       command, "--sample-range", "A:B",
       [&options](const std::string& text) { options.sampleRange = parseSampleRange(text); },
-      "Samples A to B-1 only, for shards")
+      "Samples A to B-1 only, for `isophote merge`")
       ->excludes(samples)
       ->group(kGroup);
   addValue(

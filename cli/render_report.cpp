@@ -111,6 +111,8 @@ std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 
 } // namespace
 
+std::string errorText(const ErrorEstimate& error) { return dump(errorJson(error)); }
+
 Json statusJson(const StatusCounters& status) {
   return {{"queue_overflow", status.queueOverflow},
           {"stack_overflow", status.stackOverflow},
@@ -194,7 +196,7 @@ std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
           {"isophote.features", dump(report.features.names())},
           {"isophote.seed", std::to_string(report.settings.estimator.seed)},
           {"isophote.sampleRange", fmt::format("{}:{}", report.samples.first, report.samples.last)},
-          {"isophote.error", dump(errorJson(report.result.error))},
+          {"isophote.error", errorText(report.result.error)},
           {"isophote.bias", dump(ledgerJson(report))},
           {"isophote.status", dump(statusJson(report.statistics.status))}};
 }

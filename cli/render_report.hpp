@@ -53,6 +53,9 @@ struct RenderReport {
 /// All that the bits of a pixel's samples depend on, and the first of them: JSON of one object.
 [[nodiscard]] std::string sampleIdentity(const RenderReport& report, uint32_t firstSample);
 
+/// The value of the attribute isophote.error.
+[[nodiscard]] std::string errorText(const ErrorEstimate& error);
+
 /// The counters by name.
 [[nodiscard]] nlohmann::ordered_json statusJson(const StatusCounters& status);
 

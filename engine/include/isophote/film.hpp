@@ -42,6 +42,13 @@ struct FilmSums {
   std::vector<std::byte> aovs;       ///< AovSum; empty without those layers
 };
 
+/// Stores the sums in the image as integers, so that images can be merged exactly: one plane for each 32-bit word of
+/// a pixel's ReplicateSums (`sums.replicates.N`) and AovSum (`sums.aovs.N`) and the attribute `isophote.sums`.
+void storeSums(Image& image, const FilmSums& sums);
+
+/// The sums that storeSums stored. @throws UsageError where the image has none
+[[nodiscard]] FilmSums storedSums(const Image& image);
+
 /// Adds the samples of `other`, which must be others than those of `sums`, of the same image.
 /// @throws UsageError where the images differ in size or scale; LimitError where a sum overflows
 void addSums(FilmSums& sums, const FilmSums& other);

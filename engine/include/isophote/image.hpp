@@ -17,23 +17,31 @@ struct Channel {
   std::vector<float> values;
 };
 
+/// The same of whole numbers, which floats would round.
+struct IntegerChannel {
+  std::string name;
+  std::vector<uint32_t> values;
+};
+
 struct Image {
   uint32_t width = 0;
   uint32_t height = 0;
   std::vector<Channel> channels;
+  std::vector<IntegerChannel> integers;
   std::map<std::string, std::string> attributes; ///< string attributes, such as "isophote.seed"
   float renderSeconds = 0;                       ///< the standard renderTime attribute, where positive
 
   /// The plane called `name`, or null.
   [[nodiscard]] const Channel* find(const std::string& name) const;
+  [[nodiscard]] const IntegerChannel* findIntegers(const std::string& name) const;
 };
 
-/// Writes float32 planes to one part of an OpenEXR file, through a temporary name in the same folder: the final name
-/// appears only when every byte is on disk.
+/// Writes float32 and uint32 planes to one part of an OpenEXR file, through a temporary name in the same folder: the
+/// final name appears only when every byte is on disk.
 /// @throws OutputError; an earlier file of that name is then untouched
 void writeExr(const std::filesystem::path& file, const Image& image);
 
-/// Reads every channel of the first part as float32 with the string attributes.
+/// Reads the channels of the first part, those of halves as float32, with the string attributes.
 /// @throws SceneError, LimitError
 [[nodiscard]] Image readExr(const std::filesystem::path& file);
 

@@ -11,6 +11,7 @@
 #include <zlib.h>
 
 #include "io/atomic_file.hpp"
+#include "io/film_head.hpp"
 #include "isophote/error.hpp"
 
 namespace isophote {
@@ -41,43 +42,20 @@ private:
   uLong checksum_ = crc32_z(0, nullptr, 0);
 };
 
-// Doubles are stored by their bits: the digits of JSON would do, but these need no argument.
-Json bits(double value) { return std::bit_cast<uint64_t>(value); }
-double fromBits(const Json& json) { return std::bit_cast<double>(json.get<uint64_t>()); }
-
 Json headOf(const Checkpoint& checkpoint) {
-  const FilmSums& sums = checkpoint.sums;
-  const PixelRect& crop = sums.options.crop;
   return {{"identity", checkpoint.identity},
           {"left", {checkpoint.left.first, checkpoint.left.last, checkpoint.left.begun}},
-          {"seconds", bits(checkpoint.seconds)},
-          {"size", {sums.options.width, sums.options.height}},
-          {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
-          {"aovs", sums.options.aovs},
-          {"radiance_per_unit", bits(sums.radiancePerUnit)},
-          {"length_per_unit", bits(sums.lengthPerUnit)},
-          {"world_origin", {bits(sums.worldOrigin.x), bits(sums.worldOrigin.y), bits(sums.worldOrigin.z)}},
-          {"replicate_bytes", sums.replicates.size()},
-          {"aov_bytes", sums.aovs.size()}};
+          {"seconds", checkpoint.seconds},
+          {"film", io::filmHead(checkpoint.sums)},
+          {"replicate_bytes", checkpoint.sums.replicates.size()},
+          {"aov_bytes", checkpoint.sums.aovs.size()}};
 }
 
 Checkpoint fromHead(const Json& head) {
-  Checkpoint checkpoint;
-  checkpoint.identity = head.at("identity");
-  checkpoint.left = {head.at("left").at(0), head.at("left").at(1), head.at("left").at(2)};
-  checkpoint.seconds = fromBits(head.at("seconds"));
-  FilmSums& sums = checkpoint.sums;
-  sums.options.width = head.at("size").at(0);
-  sums.options.height = head.at("size").at(1);
-  const Json& crop = head.at("crop");
-  sums.options.crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
-  sums.options.aovs = head.at("aovs");
-  sums.radiancePerUnit = fromBits(head.at("radiance_per_unit"));
-  sums.lengthPerUnit = fromBits(head.at("length_per_unit"));
-  for (int axis = 0; axis < 3; ++axis) {
-    sums.worldOrigin[axis] = fromBits(head.at("world_origin").at(static_cast<size_t>(axis)));
-  }
-  return checkpoint;
+  return {.identity = head.at("identity"),
+          .left = {head.at("left").at(0), head.at("left").at(1), head.at("left").at(2)},
+          .seconds = head.at("seconds"),
+          .sums = io::filmFromHead(head.at("film"))};
 }
 
 /// All bytes before the checksum, which has been compared.

@@ -82,6 +82,9 @@ Imf::Header makeHeader(const Image& image) {
   if (image.renderSeconds > 0) header.insert(kRenderTime, Imf::FloatAttribute(image.renderSeconds));
   for (const auto& [name, text] : image.attributes) header.insert(name, Imf::StringAttribute(text));
   for (const Channel& channel : image.channels) header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+  for (const IntegerChannel& channel : image.integers) {
+    header.channels().insert(channel.name, Imf::Channel(Imf::UINT));
+  }
   return header;
 }
 
@@ -91,11 +94,13 @@ void checkPlanes(const Image& image) {
   if (pixels == 0 || image.width > kLargest || image.height > kLargest) throw UsageError("an image without pixels");
   if (image.channels.empty()) throw UsageError("an image without channels");
   std::set<std::string> names;
-  for (const Channel& channel : image.channels) {
+  const auto check = [&](const auto& channel) {
     if (channel.values.size() != pixels)
       throw UsageError("channel " + channel.name + " does not have one value a pixel");
     if (!names.insert(channel.name).second) throw UsageError("two channels called " + channel.name);
-  }
+  };
+  for (const Channel& channel : image.channels) check(channel);
+  for (const IntegerChannel& channel : image.integers) check(channel);
 }
 
 /// @throws UnsupportedError, LimitError before any pixel memory exists
@@ -142,12 +147,21 @@ Image readPlanes(Imf::InputFile& input) {
   image.width = static_cast<uint32_t>(window.max.x - window.min.x + 1);
   image.height = static_cast<uint32_t>(window.max.y - window.min.y + 1);
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
-    image.channels.push_back({channel.name(), std::vector<float>(size_t(image.width) * image.height)});
+    const size_t pixels = size_t(image.width) * image.height;
+    if (channel.channel().type == Imf::UINT) {
+      image.integers.push_back({channel.name(), std::vector<uint32_t>(pixels)});
+    } else {
+      image.channels.push_back({channel.name(), std::vector<float>(pixels)});
+    }
   }
   Imf::FrameBuffer frame;
   for (Channel& channel : image.channels) {
     frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.values.data(), window, sizeof(float),
                                                 sizeof(float) * image.width));
+  }
+  for (IntegerChannel& channel : image.integers) {
+    frame.insert(channel.name, Imf::Slice::Make(Imf::UINT, channel.values.data(), window, sizeof(uint32_t),
+                                                sizeof(uint32_t) * image.width));
   }
   input.setFrameBuffer(frame);
   input.readPixels(window.min.y, window.max.y);
@@ -174,6 +188,10 @@ void writeExr(const std::filesystem::path& file, const Image& image) {
       // Slice takes a mutable pointer for reading and writing alike; writing a file only reads it.
       char* values = const_cast<char*>(reinterpret_cast<const char*>(channel.values.data()));
       frame.insert(channel.name, Imf::Slice(Imf::FLOAT, values, sizeof(float), sizeof(float) * image.width));
+    }
+    for (const IntegerChannel& channel : image.integers) {
+      char* values = const_cast<char*>(reinterpret_cast<const char*>(channel.values.data()));
+      frame.insert(channel.name, Imf::Slice(Imf::UINT, values, sizeof(uint32_t), sizeof(uint32_t) * image.width));
     }
     output.setFrameBuffer(frame);
     output.writePixels(static_cast<int>(image.height));

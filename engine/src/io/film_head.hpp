@@ -1,0 +1,16 @@
+// What gives a film's integers their meaning, as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "isophote/film.hpp"
+
+namespace isophote::io {
+
+/// All of `sums` but its bytes. Doubles are given by their bits.
+[[nodiscard]] nlohmann::ordered_json filmHead(const FilmSums& sums);
+
+/// The same read. @throws nlohmann::json::exception
+[[nodiscard]] FilmSums filmFromHead(const nlohmann::ordered_json& head);
+
+} // namespace isophote::io
