@@ -11,10 +11,8 @@
 namespace isophote {
 namespace {
 
-// shaders/geometry/traverse.glsl keeps a node or item index and an item count in one word of 29 + 3 bits.
-constexpr uint64_t kMaxTraversalItems = (1ull << 29) - 1;
-constexpr uint32_t kMaxLeafTriangles = 4;
-static_assert(kMaxLeafTriangles < 8);
+// Indices of nodes and triangles are 32-bit words.
+constexpr uint64_t kMaxTraversalItems = (1ull << 31) - 1;
 
 void requireFits(uint64_t count, uint64_t limit, const char* what) {
   if (count <= limit) return;
@@ -95,7 +93,7 @@ private:
     for (size_t i = 0; i < triangles.size(); ++i) {
       for (const glm::vec3& v : {triangles[i].v0, triangles[i].v1, triangles[i].v2}) boxes[i].grow(v);
     }
-    Bvh bvh = buildTimedBvh(boxes, kMaxLeafTriangles, packed_.bvh);
+    WideBvh bvh = buildTimedBvh(boxes, gpu::kBvhItemsPerSlot, packed_.bvh);
     const auto firstTriangle = static_cast<uint32_t>(packed_.triangles.size());
     mesh.rootNode = static_cast<uint32_t>(nodes.size());
     mesh.triangleCount = static_cast<uint32_t>(triangles.size());
@@ -103,8 +101,8 @@ private:
     mesh.sahCost = bvh.sahCost;
     mesh.bounds = bvh.bounds;
     for (gpu::BvhNode& node : bvh.nodes) {
-      node.child0 += node.count0 == 0 ? mesh.rootNode : firstTriangle;
-      node.child1 += node.count1 == 0 ? mesh.rootNode : firstTriangle;
+      node.firstChild += mesh.rootNode;
+      node.firstItem += firstTriangle;
     }
     nodes.insert(nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
     for (const uint32_t item : bvh.order) packed_.triangles.push_back(triangles[item]);
@@ -159,7 +157,7 @@ void requireTriangleIndices(const Scene& scene, const std::vector<bool>& meshUse
     if (!meshUsed[i]) continue;
     for (const Primitive& primitive : scene.meshes[i].primitives) triangles += primitive.indices.size() / 3;
   }
-  // A binary tree over n leaves has n - 1 inner nodes, and the top level adds fewer than one per instance.
+  // A tree over n leaves has fewer inner nodes, and the top level adds fewer than one per instance.
   requireFits(triangles, kMaxTraversalItems / 2, "triangles");
   requireFits(scene.instances.size() + scene.lights.size(), kMaxTraversalItems / 4, "instances and lights");
 }
@@ -184,10 +182,7 @@ PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUse
   }
   result.sceneInstances = packInstances(scene, result.meshes, packed);
   const auto topNodes = static_cast<uint32_t>(packed.nodes.size());
-  for (gpu::BvhNode& node : meshNodes) {
-    if (node.count0 == 0) node.child0 += topNodes;
-    if (node.count1 == 0) node.child1 += topNodes;
-  }
+  for (gpu::BvhNode& node : meshNodes) node.firstChild += topNodes;
   packed.nodes.insert(packed.nodes.end(), meshNodes.begin(), meshNodes.end());
   packed.bvh.triangles = packed.triangles.size();
   packed.bvh.nodes = packed.nodes.size();

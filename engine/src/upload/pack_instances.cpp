@@ -108,7 +108,7 @@ std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<Packed
   if (records.empty()) return {};
 
   // One instance a leaf: entering an instance costs more than a node.
-  const Bvh top = buildTimedBvh(boxes, 1, packed.bvh);
+  const WideBvh top = buildTimedBvh(boxes, 1, packed.bvh);
   packed.nodes = top.nodes;
   packed.bvh.maxDepth = top.maxDepth + deepestMesh;
   packed.bvh.sahCost = top.sahCost;
