@@ -8,6 +8,19 @@
 #include "geometry/ray_sphere.glsl"
 #include "geometry/ray_triangle.glsl"
 
+// Steps of a ray, for tests: kernels of the product are compiled without.
+#ifdef ISOPHOTE_COUNT_STEPS
+struct RaySteps {
+  uint turns; // of the loop
+  uint nodes;
+  uint triangles;
+  uint instances;
+} raySteps;
+#define COUNT_STEP(member) ++raySteps.member
+#else
+#define COUNT_STEP(member)
+#endif
+
 struct RayHit {
   float t;           // in units of the direction's length
   uint instance;     // index into the InstanceRecord array
@@ -63,7 +76,9 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
   uint itemNode = 0u;
 
   while (true) {
+    COUNT_STEP(turns);
     if (items == 0u) {
+      COUNT_STEP(nodes);
       const uint bit = findMSB(group);
       const uint slot = (bit - kBvhInnerShift) ^ nodeRay.order;
       group ^= 1u << bit;
@@ -117,6 +132,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
             if (anyHit) return best;
           }
         } else {
+          COUNT_STEP(instances);
           instance = index;
           instanceFloor = stackSize;
           const Affine objectFromWorld = objectFromWorldOf(instances, instance);
@@ -128,6 +144,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
           group = rootGroup(nodeRay);
         }
       } else {
+        COUNT_STEP(triangles);
         const BvhTriangle triangle = triangles.items[index];
         const TriangleHit hit = intersectTriangle(triangleRay, triangle.v0, triangle.v1, triangle.v2);
         if (hit.found && hit.t >= tMin && isCloser(hit.t, instance, index, best)) {
