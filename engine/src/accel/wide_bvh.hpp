@@ -20,7 +20,7 @@ struct WideBvh {
 
 struct WideBvhOptions {
   float nodeCost = 1;
-  float itemCost = 0.4f;     ///< a step tests up to 8 boxes
+  float itemCost = 1;
   uint32_t maxLeafItems = 3; ///< 1 to 3
 };
 
@@ -28,7 +28,7 @@ struct WideBvhOptions {
 ///
 /// Source: Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 /// sections 3.1 and 3.3.
-/// @param binary  leaves of at most options.maxLeafItems items
+/// @param binary  leaves of at most options.maxLeafItems items; of one each, the wide leaves are the best ones
 [[nodiscard]] WideBvh widenBvh(const Bvh& binary, const WideBvhOptions& options = {});
 
 /// The box of a child as a ray meets it; it holds the one that was stored. Empty where the slot is.
