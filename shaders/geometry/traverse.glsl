@@ -8,7 +8,7 @@
 #include "geometry/ray_sphere.glsl"
 #include "geometry/ray_triangle.glsl"
 
-// Steps of a ray, for tests: kernels of the product are compiled without.
+// What a ray cost, for tests; the product's kernels are compiled without.
 #ifdef ISOPHOTE_COUNT_STEPS
 struct RaySteps {
   uint turns; // of the loop

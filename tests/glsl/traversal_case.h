@@ -37,6 +37,13 @@ struct StepResult {
   float backT;
 };
 
+// What a ray cost, first for its closest hit, then for the question whether it is occluded.
+struct StepCountResult {
+  uint nodes[2];
+  uint triangles[2];
+  uint instances[2];
+};
+
 ISOPHOTE_SHARED_END
 
 #endif
