@@ -74,6 +74,11 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
   uint present = 0u;
   uint firstItem = 0u;
   uint itemNode = 0u;
+  if (scene.view.instanceCount == 1u) { // no top level to walk
+    group = 0u;
+    items = 1u;
+    present = 1u;
+  }
 
   while (true) {
     COUNT_STEP(turns);

@@ -55,7 +55,7 @@ struct InstanceRecord {
   vec4 objectFromWorld[3];
   uint rootNode;
   uint firstEmitter; // light index of this instance's first emissive triangle, or of the sphere; or kInvalidIndex
-  uint mesh;
+  uint mesh; // a group of the Scene's meshes
   uint flags;
 };
 ISOPHOTE_CONST uint kInstanceMirrored = 1u; // the map turns winding over

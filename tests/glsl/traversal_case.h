@@ -30,9 +30,9 @@ struct TraversalResult {
 
 // Rays from a point inside a surface through it, then on from there.
 struct StepResult {
-  uint first;  // mesh met first, or kInvalidIndex
-  uint second; // mesh met by the ray that continues beyond it
-  uint back;   // mesh met by the ray that turns back
+  uint first;  // geometry met first, or kInvalidIndex
+  uint second; // geometry met by the ray that continues beyond it
+  uint back;   // geometry met by the ray that turns back
   float secondT;
   float backT;
 };
