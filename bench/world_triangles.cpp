@@ -6,24 +6,12 @@ namespace isophote::bench {
 
 WorldTriangles worldTriangles(const Scene& scene) {
   const PackedScene packed = packScene(scene); // as GpuScene does, so with the same numbers
-  // Meshes in use follow one another in the array of triangles.
-  std::vector<uint32_t> count(scene.meshes.size()), first(scene.meshes.size());
-  std::vector<bool> used(scene.meshes.size());
-  for (const gpu::InstanceRecord& instance : packed.instances) used[instance.mesh] = true;
-  uint32_t next = 0;
-  for (size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-    if (!used[mesh]) continue;
-    for (const Primitive& primitive : scene.meshes[mesh].primitives) {
-      count[mesh] += static_cast<uint32_t>(primitive.indices.size() / 3);
-    }
-    first[mesh] = next;
-    next += count[mesh];
-  }
   WorldTriangles result;
   for (const gpu::InstanceRecord& instance : packed.instances) {
-    result.instanceOffset.push_back(static_cast<uint32_t>(result.corners.size() / 3) - first[instance.mesh]);
-    for (uint32_t i = 0; i < count[instance.mesh]; ++i) {
-      const gpu::BvhTriangle& triangle = packed.triangles[first[instance.mesh] + i];
+    const uint32_t first = packed.meshTriangles[instance.mesh];
+    result.instanceOffset.push_back(static_cast<uint32_t>(result.corners.size() / 3) - first);
+    for (uint32_t i = first; i < packed.meshTriangles[instance.mesh + 1]; ++i) {
+      const gpu::BvhTriangle& triangle = packed.triangles[i];
       for (const glm::vec3& corner : {triangle.v0, triangle.v1, triangle.v2}) {
         glm::dvec3 world;
         for (int row = 0; row < 3; ++row) {

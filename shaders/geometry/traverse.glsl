@@ -4,9 +4,22 @@
 
 #include "geometry/alpha_test.glsl"
 #include "geometry/instance_map.glsl"
-#include "geometry/ray_box.glsl"
+#include "geometry/ray_node.glsl"
 #include "geometry/ray_sphere.glsl"
 #include "geometry/ray_triangle.glsl"
+
+// What a ray cost, for tests; the product's kernels are compiled without.
+#ifdef ISOPHOTE_COUNT_STEPS
+struct RaySteps {
+  uint turns; // of the loop
+  uint nodes;
+  uint triangles;
+  uint instances;
+} raySteps;
+#define COUNT_STEP(member) ++raySteps.member
+#else
+#define COUNT_STEP(member)
+#endif
 
 struct RayHit {
   float t;           // in units of the direction's length
@@ -17,12 +30,11 @@ struct RayHit {
   bool stackOverflow; // never, while the builder keeps to kMaxBvhDepth
 };
 
-// What is still to be visited: a node (count 0) or `count` leaf items, as index | count << kWorkCountShift.
-const uint kWorkCountShift = 29u;
-const uint kWorkIndexMask = (1u << kWorkCountShift) - 1u;
-const uint kNoWork = 0xffffffffu;
+// Inner children, or instances of a top-level leaf, that are still to be visited: two words. Children: where they begin;
+// a bit for each in the highest byte, the first to visit highest; which slots are inner nodes in the lowest. Instances:
+// the node; their bits in BvhNode.contents, the highest byte 0.
 
-// A path through one level leaves at most one sibling per inner node; the rest of a top-level leaf is one more.
+// A path through one level leaves at most one group per node; the rest of a top-level leaf is one more.
 const uint kTraversalStackSize = 2u * kMaxBvhDepth + 1u;
 
 const uint kTopLevel = kInvalidIndex; // in place of an instance
@@ -31,29 +43,6 @@ const uint kTopLevel = kInvalidIndex; // in place of an instance
 bool isCloser(const float t, const uint instance, const uint triangle, const RayHit best) {
   if (t != best.t || !best.found) return t < best.t;
   return instance < best.instance || (instance == best.instance && triangle < best.triangle);
-}
-
-// Largest coordinate difference between a point and a corner of the boxes in a tree's root.
-float reachOf(const BvhNode root, const vec3 origin) {
-  vec3 farthest = max(abs(root.lower0 - origin), abs(root.upper0 - origin));
-  if (root.lower1.x <= root.upper1.x) {
-    farthest = max(farthest, max(abs(root.lower1 - origin), abs(root.upper1 - origin)));
-  }
-  return max(farthest.x, max(farthest.y, farthest.z));
-}
-
-/// A node of the array, the top level's first.
-BvhNode readNode(const BvhNodeRef nodes, const uint index) {
-  const u64vec2 pair0 = nodes.pairs[4u * index];
-  const u64vec2 pair1 = nodes.pairs[4u * index + 1u];
-  const u64vec2 pair2 = nodes.pairs[4u * index + 2u];
-  const u64vec2 pair3 = nodes.pairs[4u * index + 3u];
-  const uvec4 a = uvec4(unpackUint2x32(pair0.x), unpackUint2x32(pair0.y));
-  const uvec4 b = uvec4(unpackUint2x32(pair1.x), unpackUint2x32(pair1.y));
-  const uvec4 c = uvec4(unpackUint2x32(pair2.x), unpackUint2x32(pair2.y));
-  const uvec4 d = uvec4(unpackUint2x32(pair3.x), unpackUint2x32(pair3.y));
-  return BvhNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w,
-                 uintBitsToFloat(d.xyz), d.w);
 }
 
 /// The body of traceClosest and traceOccluded. `anyHit` is a literal at both calls, so each keeps only its own half.
@@ -67,98 +56,136 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
   RayHit best = RayHit(tMax, kInvalidIndex, kInvalidIndex, vec2(0.0), false, false);
   if (scene.view.instanceCount == 0u) return best;
   // Locals: the compiler of a CPU driver does not hoist loads out of the loop.
-  BvhNodeRef nodes = BvhNodeRef(scene.view.nodes);
+  const uint64_t nodes = scene.view.nodes;
   BvhTriangleRef triangles = BvhTriangleRef(scene.view.triangles);
   InstanceRef instances = InstanceRef(scene.view.instances);
 
-  uint stackWork[kTraversalStackSize];
-  float stackDistance[kTraversalStackSize];
+  uint stackFirst[kTraversalStackSize];
+  uint stackGroup[kTraversalStackSize];
   uint stackSize = 0u;
   uint instanceFloor = 0u; // stack size at which the current instance is done
   uint instance = kTopLevel;
-  const BoxRay worldRay = makeBoxRay(origin, direction, reachOf(readNode(nodes, 0u), origin));
-  BoxRay boxRay = worldRay;
+  const NodeRay worldRay = makeNodeRay(origin, direction, readFrame(nodes, 0u));
+  NodeRay nodeRay = worldRay;
   TriangleRay triangleRay = TriangleRay(vec3(0.0), vec3(0.0), vec3(0.0), 0u);
-  uint work = 0u; // the root
+  uint first = 0u;
+  uint group = rootGroup(nodeRay);
+  uint items = 0u; // of the node last tested: those hit, all that it has, the first of them
+  uint present = 0u;
+  uint firstItem = 0u;
+  uint itemNode = 0u;
+  if (scene.view.instanceCount == 1u) { // no top level to walk
+    group = 0u;
+    items = 1u;
+    present = 1u;
+  }
 
   while (true) {
-    const uint index = work & kWorkIndexMask;
-    const uint count = work >> kWorkCountShift;
-    if (count == 0u) {
-      const BvhNode node = readNode(nodes, index);
-      const float t0 = enterBox(boxRay, node.lower0, node.upper0, tMin, best.t);
-      const float t1 = enterBox(boxRay, node.lower1, node.upper1, tMin, best.t);
-      const uint work0 = node.child0 | node.count0 << kWorkCountShift;
-      const uint work1 = node.child1 | node.count1 << kWorkCountShift;
-      const bool first1 = t1 != kBoxMissed && (t0 == kBoxMissed || t1 < t0);
-      work = first1 ? work1 : work0;
-      if (t0 != kBoxMissed && t1 != kBoxMissed) {
+    COUNT_STEP(turns);
+    if (items == 0u) {
+      COUNT_STEP(nodes);
+      const uint bit = findMSB(group);
+      const uint slot = (bit - kBvhInnerShift) ^ nodeRay.order;
+      group ^= 1u << bit;
+      if (group >= kLowestChildBit) {
         if (stackSize < kTraversalStackSize) {
-          stackWork[stackSize] = first1 ? work0 : work1;
-          stackDistance[stackSize] = max(t0, t1);
-          ++stackSize;
-        } else {
-          best.stackOverflow = true;
-        }
-      } else if (t0 == t1) {
-        work = kNoWork;
-      }
-    } else if (instance == kTopLevel) {
-      if (count > 1u) {
-        if (stackSize < kTraversalStackSize) {
-          stackWork[stackSize] = (index + 1u) | (count - 1u) << kWorkCountShift;
-          stackDistance[stackSize] = tMin;
+          stackFirst[stackSize] = first;
+          stackGroup[stackSize] = group;
           ++stackSize;
         } else {
           best.stackOverflow = true;
         }
       }
-      if (kHasSphereLights && (instances.items[index].flags & kInstanceSphere) != 0u) {
-        const vec4 sphere = instances.items[index].worldFromObject[0];
-        const SphereHit hit = intersectSphere(origin, direction, sphere.xyz, sphere.w, tMin);
-        if (hit.found && index != ignored && isCloser(hit.t, index, kInvalidIndex, best)) {
-          best = RayHit(hit.t, index, kInvalidIndex, vec2(0.0), true, best.stackOverflow);
-          if (anyHit) return best;
-        }
-        work = kNoWork;
-      } else {
-        instance = index;
-        instanceFloor = stackSize;
-        const Affine objectFromWorld = objectFromWorldOf(instances, instance);
-        const vec3 objectOrigin = transformPoint(objectFromWorld, origin);
-        const vec3 objectDirection = transformVector(objectFromWorld, direction);
-        work = instances.items[instance].rootNode;
-        boxRay = makeBoxRay(objectOrigin, objectDirection, reachOf(readNode(nodes, work), objectOrigin));
-        triangleRay = makeTriangleRay(objectOrigin, objectDirection);
-      }
-    } else {
-      const BvhTriangle triangle = triangles.items[index];
-      const TriangleHit hit = intersectTriangle(triangleRay, triangle.v0, triangle.v1, triangle.v2);
-      if (hit.found && hit.t >= tMin && isCloser(hit.t, instance, index, best)) {
-        bool accepted = true;
-        if (kHasAlpha) {
-          if ((triangle.flags & kTriangleHasAlpha) != 0u) {
-            accepted =
-                passesAlphaTest(scene, key, instance, triangle.geometry, triangle.primitiveIndex, hit.barycentrics);
+      itemNode = first + bitCount(group & ((1u << slot) - 1u));
+      const NodeHits hits = enterNode(nodes, itemNode, nodeRay, tMin, best.t);
+      first = hits.firstChild;
+      firstItem = hits.firstItem;
+      group = hits.group;
+      items = hits.items;
+      present = hits.present;
+    }
+    if (items != 0u) {
+      const uint bit = findMSB(items);
+      items ^= 1u << bit;
+      const uint index = firstItem + bitCount(present & ((1u << bit) - 1u));
+      if (instance == kTopLevel) {
+        if (group >= kLowestChildBit) {
+          if (stackSize < kTraversalStackSize) {
+            stackFirst[stackSize] = first;
+            stackGroup[stackSize] = group;
+            ++stackSize;
+          } else {
+            best.stackOverflow = true;
           }
         }
-        if (accepted) {
-          best = RayHit(hit.t, instance, index, hit.barycentrics, true, best.stackOverflow);
-          if (anyHit) return best;
+        if (items != 0u) {
+          if (stackSize < kTraversalStackSize) {
+            stackFirst[stackSize] = itemNode;
+            stackGroup[stackSize] = items;
+            ++stackSize;
+          } else {
+            best.stackOverflow = true;
+          }
+        }
+        items = 0u;
+        group = 0u;
+        if (kHasSphereLights && (instances.items[index].flags & kInstanceSphere) != 0u) {
+          const vec4 sphere = instances.items[index].worldFromObject[0];
+          const SphereHit hit = intersectSphere(origin, direction, sphere.xyz, sphere.w, tMin);
+          if (hit.found && index != ignored && isCloser(hit.t, index, kInvalidIndex, best)) {
+            best = RayHit(hit.t, index, kInvalidIndex, vec2(0.0), true, best.stackOverflow);
+            if (anyHit) return best;
+          }
+        } else {
+          COUNT_STEP(instances);
+          instance = index;
+          instanceFloor = stackSize;
+          const Affine objectFromWorld = objectFromWorldOf(instances, instance);
+          const vec3 objectOrigin = transformPoint(objectFromWorld, origin);
+          const vec3 objectDirection = transformVector(objectFromWorld, direction);
+          first = instances.items[instance].rootNode;
+          nodeRay = makeNodeRay(objectOrigin, objectDirection, readFrame(nodes, first));
+          triangleRay = makeTriangleRay(objectOrigin, objectDirection);
+          group = rootGroup(nodeRay);
+        }
+      } else {
+        COUNT_STEP(triangles);
+        const BvhTriangle triangle = triangles.items[index];
+        const TriangleHit hit = intersectTriangle(triangleRay, triangle.v0, triangle.v1, triangle.v2);
+        if (hit.found && hit.t >= tMin && isCloser(hit.t, instance, index, best)) {
+          bool accepted = true;
+          if (kHasAlpha) {
+            if ((triangle.flags & kTriangleHasAlpha) != 0u) {
+              accepted =
+                  passesAlphaTest(scene, key, instance, triangle.geometry, triangle.primitiveIndex, hit.barycentrics);
+            }
+          }
+          if (accepted) {
+            best = RayHit(hit.t, instance, index, hit.barycentrics, true, best.stackOverflow);
+            if (anyHit) return best;
+          }
         }
       }
-      work = count > 1u ? (index + 1u) | (count - 1u) << kWorkCountShift : kNoWork;
     }
 
-    while (work == kNoWork) {
+    while (items == 0u && group < kLowestChildBit) {
       if (stackSize == instanceFloor) {
         if (instance == kTopLevel) return best;
         instance = kTopLevel;
         instanceFloor = 0u;
-        boxRay = worldRay;
+        nodeRay = worldRay;
       } else {
         --stackSize;
-        if (stackDistance[stackSize] <= best.t) work = stackWork[stackSize];
+        first = stackFirst[stackSize];
+        group = stackGroup[stackSize];
+        if (group < kLowestChildBit) {
+          items = group;
+          group = 0u;
+          itemNode = first;
+          const NodeContents contents = readContents(nodes, itemNode);
+          present = contents.present;
+          firstItem = contents.firstItem;
+        }
       }
     }
   }

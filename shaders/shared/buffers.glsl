@@ -23,8 +23,8 @@ ISOPHOTE_BUFFER(UintRef, uint);
 ISOPHOTE_BUFFER(Vec2Ref, vec2);
 ISOPHOTE_BUFFER(Vec3Ref, vec3);
 ISOPHOTE_BUFFER(Vec4Ref, vec4);
-// BvhNode as four pairs of 8-byte words: a CPU driver gathers component by component, 8 bytes as fast as 4.
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeRef { u64vec2 pairs[]; };
+// One BvhNode as 8-byte words: a CPU driver gathers component by component, 8 bytes as fast as 4.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeRef { uint64_t words[10]; };
 ISOPHOTE_BUFFER(BvhTriangleRef, BvhTriangle);
 ISOPHOTE_BUFFER(InstanceRef, InstanceRecord);
 ISOPHOTE_BUFFER(GeometryRef, Geometry);

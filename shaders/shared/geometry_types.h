@@ -12,18 +12,26 @@ ISOPHOTE_CONST float kRayInfinity = 3.402823466e38f; // tMax of a ray that nothi
 // No BVH is deeper than this many inner nodes from root to leaf; the traversal stack holds both levels.
 ISOPHOTE_CONST uint kMaxBvhDepth = 32u;
 
-// Both children's boxes in the parent. count 0: child is an inner node's index; else child is the first of `count`
-// leaf items (BvhTriangle in a mesh BVH, Instance in the top level). An absent child has lower > upper.
-// Indices are absolute in their arrays.
+// Up to eight children, their boxes in the cells of a frame of the node's own: a grid of 256 cells an axis whose size is
+// a power of two. The frame is that of Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through
+// Compressed Wide BVHs". A slot is empty, an inner node, or a leaf of one to three items (BvhTriangle in a mesh BVH,
+// InstanceRecord in the top level). Slot 4 a + 2 b + c lies towards the upper end of z where a, y where b, x where c.
+ISOPHOTE_CONST uint kBvhWidth = 8u;
+ISOPHOTE_CONST uint kBvhItemsPerSlot = 3u;
+ISOPHOTE_CONST uint kBvhInnerShift = 24u;
+ISOPHOTE_CONST float kBvhFrameCells = 256.0;
+ISOPHOTE_CONST uint kBvhNodeBytes = 80u;
+ISOPHOTE_CONST uint kBvhBoundsOffset = 32u; // of `lower`
+
 struct BvhNode {
-  vec3 lower0;
-  uint child0;
-  vec3 upper0;
-  uint count0;
-  vec3 lower1;
-  uint child1;
-  vec3 upper1;
-  uint count1;
+  vec3 origin;     // lower corner of the frame
+  uint exponents;  // of the frame's size on x, y, z, a byte each, biased by 127
+  uint contents;   // bits 3 s to 3 s + 2: the items of slot s; bit 24 + s: slot s is an inner node
+  uint firstChild; // inner nodes and items follow one another by slot; absolute in their arrays
+  uint firstItem;
+  uint unused;
+  uint lower[6]; // first cell of each box, a byte a slot: two words for x, two for y, two for z
+  uint upper[6]; // its far side, likewise
 };
 
 ISOPHOTE_CONST uint kTriangleHasAlpha = 1u; // mask or blend: candidates call the alpha test
@@ -47,7 +55,7 @@ struct InstanceRecord {
   vec4 objectFromWorld[3];
   uint rootNode;
   uint firstEmitter; // light index of this instance's first emissive triangle, or of the sphere; or kInvalidIndex
-  uint mesh;
+  uint mesh; // a group of the Scene's meshes
   uint flags;
 };
 ISOPHOTE_CONST uint kInstanceMirrored = 1u; // the map turns winding over

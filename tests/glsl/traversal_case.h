@@ -30,11 +30,18 @@ struct TraversalResult {
 
 // Rays from a point inside a surface through it, then on from there.
 struct StepResult {
-  uint first;  // mesh met first, or kInvalidIndex
-  uint second; // mesh met by the ray that continues beyond it
-  uint back;   // mesh met by the ray that turns back
+  uint first;  // geometry met first, or kInvalidIndex
+  uint second; // geometry met by the ray that continues beyond it
+  uint back;   // geometry met by the ray that turns back
   float secondT;
   float backT;
+};
+
+// What a ray cost, first for its closest hit, then for the question whether it is occluded.
+struct StepCountResult {
+  uint nodes[2];
+  uint triangles[2];
+  uint instances[2];
 };
 
 ISOPHOTE_SHARED_END

@@ -14,16 +14,16 @@ StepResult probe(const TraversalCase c) {
   StepResult result = StepResult(kInvalidIndex, kInvalidIndex, kInvalidIndex, 0.0, 0.0);
   const RayHit hit = traceClosest(scene, c.origin, c.direction, c.tMin, c.tMax, key, kInvalidIndex);
   if (!hit.found) return result;
-  InstanceRef instances = InstanceRef(scene.view.instances);
-  result.first = instances.items[hit.instance].mesh;
+  BvhTriangleRef triangles = BvhTriangleRef(scene.view.triangles);
+  result.first = triangles.items[hit.triangle].geometry;
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics);
   const vec3 onward = offsetRayOrigin(surface.p, surface.pError, surface.ng, c.direction);
   const RayHit second = traceClosest(scene, onward, c.direction, 0.0, kRayInfinity, key, kInvalidIndex);
-  if (second.found) result.second = instances.items[second.instance].mesh;
+  if (second.found) result.second = triangles.items[second.triangle].geometry;
   result.secondT = second.t;
   const vec3 backward = offsetRayOrigin(surface.p, surface.pError, surface.ng, -c.direction);
   const RayHit back = traceClosest(scene, backward, -c.direction, 0.0, kRayInfinity, key, kInvalidIndex);
-  if (back.found) result.back = instances.items[back.instance].mesh;
+  if (back.found) result.back = triangles.items[back.triangle].geometry;
   result.backT = back.t;
   return result;
 }

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 using namespace isophote;
-using gpu::BvhNode;
 
 namespace {
 
@@ -30,14 +29,14 @@ bool contains(const Box& outer, const Box& inner) {
 }
 
 // Walks the tree from its root and fails on any broken promise of the header. Returns the depth found.
-uint32_t checkTree(const std::vector<Box>& boxes, const Bvh& bvh, uint32_t maxLeafItems = 4) {
+uint32_t checkTree(const std::vector<Box>& boxes, const Bvh& bvh, uint32_t maxLeafItems = 3) {
   std::vector<uint32_t> seen(boxes.size(), 0);
   std::vector<uint32_t> nodeSeen(bvh.nodes.size(), 0);
   uint32_t leafItems = 0;
   const std::function<uint32_t(uint32_t, const Box&)> visit = [&](uint32_t index, const Box& bounds) -> uint32_t {
     EXPECT_LT(index, bvh.nodes.size());
     EXPECT_EQ(++nodeSeen[index], 1u);
-    const BvhNode& node = bvh.nodes[index];
+    const BinaryNode& node = bvh.nodes[index];
     uint32_t depth = 0;
     for (int side = 0; side < 2; ++side) {
       const Box box{side == 0 ? node.lower0 : node.lower1, side == 0 ? node.upper0 : node.upper1};
@@ -76,7 +75,7 @@ double medianSplitCost(std::vector<Box>& boxes, size_t first, size_t count, doub
     bounds.grow(boxes[i]);
     centers.grow(0.5f * (boxes[i].lower + boxes[i].upper));
   }
-  if (count <= 4) return halfArea(bounds) / rootArea * static_cast<double>(count);
+  if (count <= 3) return halfArea(bounds) / rootArea * static_cast<double>(count);
   const glm::vec3 e = centers.upper - centers.lower;
   const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
   const auto begin = boxes.begin() + static_cast<ptrdiff_t>(first);
@@ -89,7 +88,7 @@ double medianSplitCost(std::vector<Box>& boxes, size_t first, size_t count, doub
 
 bool sameTree(const Bvh& a, const Bvh& b) {
   return a.order == b.order && a.nodes.size() == b.nodes.size() &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BvhNode)) == 0 && a.sahCost == b.sahCost &&
+         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0 && a.sahCost == b.sahCost &&
          a.maxDepth == b.maxDepth;
 }
 

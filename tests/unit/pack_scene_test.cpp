@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "accel/wide_bvh.hpp"
 #include "isophote/error.hpp"
 
 using namespace isophote;
@@ -62,20 +63,14 @@ std::map<std::pair<uint32_t, uint32_t>, uint32_t> reached(const PackedScene& pac
     const auto [index, instance] = work.back();
     work.pop_back();
     const gpu::BvhNode& node = packed.nodes.at(index);
-    for (int side = 0; side < 2; ++side) {
-      const uint32_t child = side == 0 ? node.child0 : node.child1;
-      const uint32_t count = side == 0 ? node.count0 : node.count1;
-      if ((side == 0 ? node.lower0.x > node.upper0.x : node.lower1.x > node.upper1.x)) continue;
-      if (count == 0) {
-        work.emplace_back(child, instance);
-        continue;
-      }
-      for (uint32_t i = child; i < child + count; ++i) {
-        if (instance == gpu::kInvalidIndex)
-          work.emplace_back(packed.instances.at(i).rootNode, i);
-        else
-          ++counts[{instance, i}];
-      }
+    const int inner = std::popcount(node.contents >> gpu::kBvhInnerShift);
+    const int items = std::popcount(node.contents & ((1u << gpu::kBvhInnerShift) - 1));
+    for (int i = 0; i < inner; ++i) work.emplace_back(node.firstChild + i, instance);
+    for (uint32_t i = node.firstItem; i < node.firstItem + items; ++i) {
+      if (instance == gpu::kInvalidIndex)
+        work.emplace_back(packed.instances.at(i).rootNode, i);
+      else
+        ++counts[{instance, i}];
     }
   }
   return counts;
@@ -233,20 +228,25 @@ TEST(PackScene, InstanceBoxesHoldTheirTriangles) {
     instance.worldFromObject[3] = glm::dvec4(1e3 * unit(random), 1e3 * unit(random), 1e3 * unit(random), 1);
   }
   const PackedScene packed = packScene(scene);
+  uint32_t boxes = 0;
   for (const gpu::BvhNode& node : packed.nodes) {
-    for (int side = 0; side < 2; ++side) {
-      const uint32_t count = side == 0 ? node.count0 : node.count1;
-      if (count != 1 || node.lower0.z == 0) continue; // a mesh's leaf: the square lies in z = 0
-      const gpu::InstanceRecord& instance = packed.instances.at(side == 0 ? node.child0 : node.child1);
+    if (node.origin.z == 0) continue; // the mesh's own: the square lies in z = 0
+    uint32_t item = node.firstItem;
+    for (uint32_t slot = 0; slot < gpu::kBvhWidth; ++slot) {
+      if ((node.contents >> gpu::kBvhItemsPerSlot * slot & 1u) == 0) continue;
+      const gpu::InstanceRecord& instance = packed.instances.at(item++);
+      const Box box = childBox(node, slot);
+      ++boxes;
       for (const glm::vec3& v : scene.meshes[0].primitives[0].positions) {
         for (int row = 0; row < 3; ++row) {
           const double world = glm::dot(glm::dvec4(instance.worldFromObject[row]), glm::dvec4(v, 1));
-          EXPECT_GE(world, (side == 0 ? node.lower0 : node.lower1)[row]);
-          EXPECT_LE(world, (side == 0 ? node.upper0 : node.upper1)[row]);
+          EXPECT_GE(world, box.lower[row]);
+          EXPECT_LE(world, box.upper[row]);
         }
       }
     }
   }
+  EXPECT_EQ(boxes, 50u);
 }
 
 TEST(PackScene, WorldOriginMovesOnlyWhereTheSceneIsFarAway) {

@@ -12,7 +12,6 @@
 namespace isophote {
 namespace {
 
-using gpu::BvhNode;
 using gpu::kMaxBvhDepth;
 
 constexpr uint32_t kMaxBins = 16;
@@ -100,7 +99,7 @@ struct Child {
   uint32_t depth = 0; // inner nodes down to the deepest leaf
 };
 
-BvhNode nodeOf(const Child& left, const Child& right) {
+BinaryNode nodeOf(const Child& left, const Child& right) {
   return {left.box.lower,  left.index,  left.box.upper,  left.count,
           right.box.lower, right.index, right.box.upper, right.count};
 }
@@ -111,7 +110,7 @@ public:
 
   // Appends the subtree below a node made of `halves`, depth first; its root is the first node appended.
   // `levels`: inner nodes allowed from this one to a leaf, itself included. Returns how many there are.
-  uint32_t build(const Halves& halves, uint32_t levels, uint32_t threads, std::vector<BvhNode>& nodes) {
+  uint32_t build(const Halves& halves, uint32_t levels, uint32_t threads, std::vector<BinaryNode>& nodes) {
     const size_t self = nodes.size();
     nodes.emplace_back();
     const bool parallel = threads > 1 && std::min(halves.left.count, halves.right.count) >= kMinItemsPerThread;
@@ -204,7 +203,7 @@ private:
   }
 
   // A leaf, or a subtree appended to `nodes`.
-  Child buildChild(const Range& range, uint32_t levels, uint32_t threads, std::vector<BvhNode>& nodes) {
+  Child buildChild(const Range& range, uint32_t levels, uint32_t threads, std::vector<BinaryNode>& nodes) {
     const std::optional<Halves> halves = split(range, levels);
     if (!halves) return {range.box, range.first, range.count, 0};
     const auto index = static_cast<uint32_t>(nodes.size());
@@ -213,8 +212,8 @@ private:
 
   // Appends the same nodes in the same order as two calls of buildChild, the left half on a thread of its own.
   std::pair<Child, Child> buildInParallel(const Halves& halves, uint32_t levels, uint32_t threads,
-                                          std::vector<BvhNode>& nodes) {
-    std::vector<BvhNode> leftNodes, rightNodes;
+                                          std::vector<BinaryNode>& nodes) {
+    std::vector<BinaryNode> leftNodes, rightNodes;
     auto pending =
         std::async(std::launch::async, [&] { return buildChild(halves.left, levels, threads / 2, leftNodes); });
     Child right = buildChild(halves.right, levels, threads - threads / 2, rightNodes);
@@ -225,9 +224,9 @@ private:
   }
 
   // Moves a subtree with indices of its own to the end of `nodes`.
-  static void append(std::vector<BvhNode>& part, Child& root, std::vector<BvhNode>& nodes) {
+  static void append(std::vector<BinaryNode>& part, Child& root, std::vector<BinaryNode>& nodes) {
     const auto offset = static_cast<uint32_t>(nodes.size());
-    for (BvhNode& node : part) {
+    for (BinaryNode& node : part) {
       if (node.count0 == 0) node.child0 += offset;
       if (node.count1 == 0) node.child1 += offset;
     }
@@ -241,13 +240,13 @@ private:
 
 // Expected node steps and item tests of a random ray that hits `bounds`: a box inside it is hit with the probability
 // that is the ratio of their areas (Goldsmith and Salmon 1987). A root without area counts its own step alone.
-double expectedCost(const std::vector<BvhNode>& nodes, const Box& bounds, const BvhBuildOptions& options) {
+double expectedCost(const std::vector<BinaryNode>& nodes, const Box& bounds, const BvhBuildOptions& options) {
   const double rootArea = halfArea(bounds);
   double sum = 0;
   const auto add = [&](const Box& box, uint32_t count) {
     sum += halfArea(box) * (count == 0 ? options.nodeCost : options.itemCost * static_cast<double>(count));
   };
-  for (const BvhNode& node : nodes) {
+  for (const BinaryNode& node : nodes) {
     add({node.lower0, node.upper0}, node.count0);
     add({node.lower1, node.upper1}, node.count1);
   }

@@ -27,18 +27,31 @@ struct Box {
 /// Half the surface area, in double so that no finite box overflows; 0 for an empty box.
 [[nodiscard]] double halfArea(const Box& box);
 
+/// Both children's boxes in the parent. count 0: child is an inner node's index; else child is the first of `count`
+/// leaf items. An absent child has lower > upper.
+struct BinaryNode {
+  glm::vec3 lower0;
+  uint32_t child0;
+  glm::vec3 upper0;
+  uint32_t count0;
+  glm::vec3 lower1;
+  uint32_t child1;
+  glm::vec3 upper1;
+  uint32_t count1;
+};
+
 /// Nodes with indices relative to this BVH (root 0, leaf items index `order`). Never empty: no boxes give one node with
 /// two absent children; one leaf gives a node whose second child is absent.
 struct Bvh {
-  std::vector<gpu::BvhNode> nodes;
-  std::vector<uint32_t> order; ///< item numbers in leaf order
-  uint32_t maxDepth = 0;       ///< inner nodes from root to the deepest leaf, <= gpu::kMaxBvhDepth
-  double sahCost = 0;          ///< expected node steps + item tests for a random ray that hits the root box
+  std::vector<BinaryNode> nodes; ///< parents before children
+  std::vector<uint32_t> order;   ///< item numbers in leaf order
+  uint32_t maxDepth = 0;         ///< inner nodes from root to the deepest leaf, <= gpu::kMaxBvhDepth
+  double sahCost = 0;            ///< expected node steps + item tests for a random ray that hits the root box
   Box bounds;
 };
 
 struct BvhBuildOptions {
-  uint32_t maxLeafItems = 4;
+  uint32_t maxLeafItems = 3;
   float nodeCost = 1;
   float itemCost = 1;
   uint32_t threads = 0; ///< 0: all cores; the result does not depend on it

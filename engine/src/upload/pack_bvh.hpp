@@ -5,13 +5,15 @@
 #include <span>
 
 #include "accel/bvh.hpp"
+#include "accel/wide_bvh.hpp"
 #include "upload/pack_scene.hpp"
 
 namespace isophote {
 
-[[nodiscard]] inline Bvh buildTimedBvh(std::span<const Box> boxes, uint32_t maxLeafItems, BvhStatistics& statistics) {
+[[nodiscard]] inline WideBvh buildTimedBvh(std::span<const Box> boxes, uint32_t maxLeafItems,
+                                           BvhStatistics& statistics) {
   const auto start = std::chrono::steady_clock::now();
-  Bvh bvh = buildBvh(boxes, {.maxLeafItems = maxLeafItems});
+  WideBvh bvh = widenBvh(buildBvh(boxes, {.maxLeafItems = 1}), {.maxLeafItems = maxLeafItems});
   statistics.milliseconds +=
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return bvh;

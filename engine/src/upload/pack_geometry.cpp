@@ -1,6 +1,7 @@
 #include "upload/pack_geometry.hpp"
 
 #include "isophote/error.hpp"
+#include "upload/mesh_groups.hpp"
 #include "upload/pack_bvh.hpp"
 #include "upload/pack_instances.hpp"
 #include "upload/pack_texels.hpp"
@@ -11,10 +12,8 @@
 namespace isophote {
 namespace {
 
-// shaders/geometry/traverse.glsl keeps a node or item index and an item count in one word of 29 + 3 bits.
-constexpr uint64_t kMaxTraversalItems = (1ull << 29) - 1;
-constexpr uint32_t kMaxLeafTriangles = 4;
-static_assert(kMaxLeafTriangles < 8);
+// Indices of nodes and triangles are 32-bit words.
+constexpr uint64_t kMaxTraversalItems = (1ull << 31) - 1;
 
 void requireFits(uint64_t count, uint64_t limit, const char* what) {
   if (count <= limit) return;
@@ -36,32 +35,38 @@ public:
   MeshPacker(const Scene& scene, const PackedMaterials& materials, PackedScene& packed)
       : scene_(scene), materials_(materials), packed_(packed) {}
 
-  // Appends the mesh; its BVH nodes go to `nodes` with indices relative to that array.
-  PackedMesh add(const Mesh& mesh, std::vector<gpu::BvhNode>& nodes) {
+  // Appends the meshes of a group; their BVH nodes go to `nodes` with indices relative to that array.
+  PackedMesh add(const MeshGroup& group, std::vector<gpu::BvhNode>& nodes) {
     PackedMesh result;
     std::vector<gpu::BvhTriangle> triangles;
-    std::vector<uint32_t> primitiveOf; // per triangle
     uint32_t emissive = 0;
-    for (uint32_t i = 0; i < mesh.primitives.size(); ++i) {
-      const Primitive& primitive = mesh.primitives[i];
-      if (primitive.indices.empty()) continue;
-      gpu::Geometry geometry = attributes(primitive);
-      const uint32_t flags = triangleFlags(primitive);
-      if (flags & gpu::kTriangleEmissive) {
-        geometry.firstEmissive = emissive;
-        emissive += static_cast<uint32_t>(primitive.indices.size() / 3);
+    for (const uint32_t mesh : group.meshes) {
+      for (uint32_t i = 0; i < scene_.meshes[mesh].primitives.size(); ++i) {
+        const Primitive& primitive = scene_.meshes[mesh].primitives[i];
+        if (primitive.indices.empty()) continue;
+        gpu::Geometry geometry = attributes(primitive);
+        const uint32_t flags = triangleFlags(primitive);
+        if (flags & gpu::kTriangleEmissive) {
+          geometry.firstEmissive = emissive;
+          emissive += static_cast<uint32_t>(primitive.indices.size() / 3);
+        }
+        addTriangles(primitive, flags, triangles);
+        packed_.geometries.push_back(geometry);
+        sources_.push_back({mesh, i});
       }
-      addTriangles(primitive, flags, triangles);
-      primitiveOf.resize(triangles.size(), i);
-      packed_.geometries.push_back(geometry);
     }
     if (triangles.empty()) return result;
     buildTree(triangles, result, nodes);
-    result.emitters = emitters(primitiveOf, emissive, result);
+    result.emitters = emitters(emissive, result);
     return result;
   }
 
 private:
+  // A primitive of the Scene.
+  struct Source {
+    uint32_t mesh, primitive;
+  };
+
   gpu::Geometry attributes(const Primitive& primitive) {
     const Material& material = scene_.materials[primitive.material];
     const uint32_t uvSets = materials_.uvSets[primitive.material];
@@ -95,7 +100,7 @@ private:
     for (size_t i = 0; i < triangles.size(); ++i) {
       for (const glm::vec3& v : {triangles[i].v0, triangles[i].v1, triangles[i].v2}) boxes[i].grow(v);
     }
-    Bvh bvh = buildTimedBvh(boxes, kMaxLeafTriangles, packed_.bvh);
+    WideBvh bvh = buildTimedBvh(boxes, gpu::kBvhItemsPerSlot, packed_.bvh);
     const auto firstTriangle = static_cast<uint32_t>(packed_.triangles.size());
     mesh.rootNode = static_cast<uint32_t>(nodes.size());
     mesh.triangleCount = static_cast<uint32_t>(triangles.size());
@@ -103,24 +108,23 @@ private:
     mesh.sahCost = bvh.sahCost;
     mesh.bounds = bvh.bounds;
     for (gpu::BvhNode& node : bvh.nodes) {
-      node.child0 += node.count0 == 0 ? mesh.rootNode : firstTriangle;
-      node.child1 += node.count1 == 0 ? mesh.rootNode : firstTriangle;
+      node.firstChild += mesh.rootNode;
+      node.firstItem += firstTriangle;
     }
     nodes.insert(nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
     for (const uint32_t item : bvh.order) packed_.triangles.push_back(triangles[item]);
-    leafOrder_ = std::move(bvh.order);
   }
 
   // Emitters in the order of light indices, from triangles in leaf order.
-  [[nodiscard]] std::vector<MeshEmitter> emitters(const std::vector<uint32_t>& primitiveOf, uint32_t count,
-                                                  const PackedMesh& mesh) const {
+  [[nodiscard]] std::vector<MeshEmitter> emitters(uint32_t count, const PackedMesh& mesh) const {
     std::vector<MeshEmitter> result(count);
     const size_t first = packed_.triangles.size() - mesh.triangleCount;
     for (size_t i = first; count > 0 && i < packed_.triangles.size(); ++i) {
       const gpu::BvhTriangle& triangle = packed_.triangles[i];
       if (!(triangle.flags & gpu::kTriangleEmissive)) continue;
       const uint32_t at = packed_.geometries[triangle.geometry].firstEmissive + triangle.primitiveIndex;
-      result[at] = {static_cast<uint32_t>(i), primitiveOf[leafOrder_[i - first]], triangle.primitiveIndex};
+      const Source& source = sources_[triangle.geometry];
+      result[at] = {static_cast<uint32_t>(i), source.mesh, source.primitive, triangle.primitiveIndex};
     }
     return result;
   }
@@ -149,7 +153,7 @@ private:
   const Scene& scene_;
   const PackedMaterials& materials_;
   PackedScene& packed_;
-  std::vector<uint32_t> leafOrder_; // of the last tree
+  std::vector<Source> sources_; // of packed_.geometries
   std::map<uint32_t, bool> opaqueImages_;
 };
 
@@ -159,7 +163,7 @@ void requireTriangleIndices(const Scene& scene, const std::vector<bool>& meshUse
     if (!meshUsed[i]) continue;
     for (const Primitive& primitive : scene.meshes[i].primitives) triangles += primitive.indices.size() / 3;
   }
-  // A binary tree over n leaves has n - 1 inner nodes, and the top level adds fewer than one per instance.
+  // A tree over n leaves has fewer inner nodes, and the top level adds fewer than one per instance.
   requireFits(triangles, kMaxTraversalItems / 2, "triangles");
   requireFits(scene.instances.size() + scene.lights.size(), kMaxTraversalItems / 4, "instances and lights");
 }
@@ -176,18 +180,17 @@ PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUse
                             PackedScene& packed) {
   requireTriangleIndices(scene, meshUsed);
   PackedGeometry result;
-  result.meshes.resize(scene.meshes.size());
+  const MeshGroups groups = groupMeshes(scene);
   std::vector<gpu::BvhNode> meshNodes;
   MeshPacker packer(scene, materials, packed);
-  for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (meshUsed[i]) result.meshes[i] = packer.add(scene.meshes[i], meshNodes);
+  for (const MeshGroup& group : groups.groups) {
+    packed.meshTriangles.push_back(static_cast<uint32_t>(packed.triangles.size()));
+    result.meshes.push_back(packer.add(group, meshNodes));
   }
-  result.sceneInstances = packInstances(scene, result.meshes, packed);
+  packed.meshTriangles.push_back(static_cast<uint32_t>(packed.triangles.size()));
+  result.sceneInstances = packInstances(scene, groups.placements, result.meshes, packed);
   const auto topNodes = static_cast<uint32_t>(packed.nodes.size());
-  for (gpu::BvhNode& node : meshNodes) {
-    if (node.count0 == 0) node.child0 += topNodes;
-    if (node.count1 == 0) node.child1 += topNodes;
-  }
+  for (gpu::BvhNode& node : meshNodes) node.firstChild += topNodes;
   packed.nodes.insert(packed.nodes.end(), meshNodes.begin(), meshNodes.end());
   packed.bvh.triangles = packed.triangles.size();
   packed.bvh.nodes = packed.nodes.size();

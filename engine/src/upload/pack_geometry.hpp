@@ -13,24 +13,25 @@ namespace isophote {
 /// Where an emissive triangle of a mesh is.
 struct MeshEmitter {
   uint32_t triangle = 0;       ///< index into PackedScene::triangles
-  uint32_t primitive = 0;      ///< of the Scene's mesh
+  uint32_t mesh = 0;           ///< of the Scene
+  uint32_t primitive = 0;      ///< of that mesh
   uint32_t primitiveIndex = 0; ///< triangle number within it
 };
 
-/// What stands in PackedScene for one mesh of the Scene.
+/// What stands in PackedScene for one group of meshes (mesh_groups.hpp).
 struct PackedMesh {
-  uint32_t rootNode = gpu::kInvalidIndex; ///< relative to the first mesh node; kInvalidIndex: unused or no triangles
+  uint32_t rootNode = gpu::kInvalidIndex; ///< relative to the first mesh node; kInvalidIndex: no triangles
   uint32_t triangleCount = 0;
   uint32_t maxDepth = 0;
   double sahCost = 0;
   Box bounds;
-  std::vector<MeshEmitter> emitters; ///< by primitive, then triangle number
+  std::vector<MeshEmitter> emitters; ///< by mesh, primitive, then triangle number
 };
 
 struct PackedGeometry {
-  std::vector<PackedMesh> meshes;       ///< as Scene::meshes
-  std::vector<uint32_t> sceneInstances; ///< per InstanceRecord: its index in Scene::instances; of a sphere light, in
-                                        ///< Scene::lights
+  std::vector<PackedMesh> meshes;       ///< as InstanceRecord::mesh counts them
+  std::vector<uint32_t> sceneInstances; ///< per InstanceRecord: its index in Scene::instances, the first of a
+                                        ///< group's; of a sphere light, in Scene::lights
 };
 
 /// Meshes that an instance refers to.

@@ -14,14 +14,13 @@ void setRows(const glm::dmat4& map, gpu::vec4 (&rows)[3]) {
   for (int row = 0; row < 3; ++row) rows[row] = glm::vec4(map[0][row], map[1][row], map[2][row], map[3][row]);
 }
 
-gpu::InstanceRecord instanceRecord(const glm::dmat4& worldFromObject, const Instance& instance,
-                                   const PackedMesh& mesh) {
+gpu::InstanceRecord instanceRecord(const glm::dmat4& worldFromObject, uint32_t number, const PackedMesh& mesh) {
   gpu::InstanceRecord record{};
   setRows(worldFromObject, record.worldFromObject);
   setRows(glm::inverse(worldFromObject), record.objectFromWorld);
   record.rootNode = mesh.rootNode;
   record.firstEmitter = gpu::kInvalidIndex;
-  record.mesh = instance.mesh;
+  record.mesh = number;
   record.flags = glm::determinant(glm::dmat3(worldFromObject)) < 0 ? gpu::kInstanceMirrored : 0;
   return record;
 }
@@ -82,20 +81,20 @@ Box sphereBox(const gpu::InstanceRecord& record) {
 
 } // namespace
 
-std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<PackedMesh>& meshes, PackedScene& packed) {
+std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<GroupPlacement>& placements,
+                                    const std::vector<PackedMesh>& meshes, PackedScene& packed) {
   std::vector<gpu::InstanceRecord> records;
   std::vector<uint32_t> sceneInstances;
   std::vector<Box> boxes;
   uint32_t deepestMesh = 0;
-  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    const PackedMesh& mesh = meshes[instance.mesh];
+  for (const GroupPlacement& placement : placements) {
+    const PackedMesh& mesh = meshes[placement.group];
     if (mesh.triangleCount == 0) continue;
-    glm::dmat4 worldFromObject = instance.worldFromObject;
+    glm::dmat4 worldFromObject = scene.instances[placement.instance].worldFromObject;
     worldFromObject[3] -= glm::dvec4(packed.worldOrigin, 0);
-    records.push_back(instanceRecord(worldFromObject, instance, mesh));
+    records.push_back(instanceRecord(worldFromObject, placement.group, mesh));
     boxes.push_back(worldBox(mesh.bounds, records.back()));
-    sceneInstances.push_back(i);
+    sceneInstances.push_back(placement.instance);
     deepestMesh = std::max(deepestMesh, mesh.maxDepth);
     packed.bvh.instancedTriangles += mesh.triangleCount;
   }
@@ -108,7 +107,7 @@ std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<Packed
   if (records.empty()) return {};
 
   // One instance a leaf: entering an instance costs more than a node.
-  const Bvh top = buildTimedBvh(boxes, 1, packed.bvh);
+  const WideBvh top = buildTimedBvh(boxes, 1, packed.bvh);
   packed.nodes = top.nodes;
   packed.bvh.maxDepth = top.maxDepth + deepestMesh;
   packed.bvh.sahCost = top.sahCost;

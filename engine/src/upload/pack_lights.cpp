@@ -75,7 +75,7 @@ private:
       const PackedMesh& mesh = geometry_.meshes[instance.mesh];
       if (mesh.emitters.empty()) continue;
       instance.firstEmitter = static_cast<uint32_t>(packed_.emissiveTriangles.size());
-      const glm::dmat3 worldFromObject(scene_.instances[geometry_.sceneInstances[i]].worldFromObject);
+      const glm::dmat4& worldFromObject(scene_.instances[geometry_.sceneInstances[i]].worldFromObject);
       for (size_t k = 0; k < mesh.emitters.size(); ++k) {
         const MeshEmitter& emitter = mesh.emitters[k];
         packed_.emissiveTriangles.push_back({i, emitter.triangle});
@@ -89,7 +89,7 @@ private:
     std::vector<std::vector<double>> result(geometry_.meshes.size());
     for (size_t i = 0; i < result.size(); ++i) {
       for (const MeshEmitter& emitter : geometry_.meshes[i].emitters) {
-        const Primitive& primitive = scene_.meshes[i].primitives[emitter.primitive];
+        const Primitive& primitive = scene_.meshes[emitter.mesh].primitives[emitter.primitive];
         const Material& material = scene_.materials[primitive.material];
         result[i].push_back(emission_.meanLuminance(material, primitive, emitter.primitiveIndex));
         largest_ = std::max(largest_, largestComponent(emission_.largestRadiance(material)));

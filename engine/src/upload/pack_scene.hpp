@@ -36,6 +36,8 @@ struct BvhStatistics {
 struct PackedScene {
   std::vector<gpu::BvhNode> nodes;
   std::vector<gpu::BvhTriangle> triangles;
+  std::vector<uint32_t>
+      meshTriangles; ///< where the triangles of InstanceRecord::mesh begin, and where the last ones end
   std::vector<gpu::InstanceRecord> instances;
   std::vector<gpu::Geometry> geometries;
   std::vector<uint32_t> indices;

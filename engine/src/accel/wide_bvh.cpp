@@ -1,0 +1,272 @@
+#include "accel/wide_bvh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace isophote {
+namespace {
+
+using gpu::kBvhItemsPerSlot;
+using gpu::kBvhWidth;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr int kExponentBias = 127;
+constexpr int kSmallestExponent = -100; // of a frame's size: boxes smaller than its cells need no frame of their own
+constexpr int kLargestExponent = 127;
+constexpr double kCells = gpu::kBvhFrameCells;
+
+// A child of a wide node: a subtree of the binary tree with its items.
+struct Child {
+  Box box;
+  uint32_t node = 0; // binary node of an inner child
+  uint32_t firstItem = 0;
+  uint32_t itemCount = 0; // of a leaf; 0: inner
+};
+
+// How the items below a binary node are best made into at most 1 to 7 children of one wide node.
+struct Forest {
+  std::array<float, kBvhWidth> cost{};       // [i]: of at most i children; [0] is not used
+  std::array<uint8_t, kBvhWidth + 1> left{}; // [i]: children of i that the left half gets; 0: i - 1 are as good
+  uint32_t firstItem = 0;
+  uint32_t itemCount = 0;
+  bool leaf = false; // whether the single child is a leaf
+};
+
+class Widener {
+public:
+  Widener(const Bvh& binary, const WideBvhOptions& options)
+      : binary_(binary), options_(options), forests_(binary.nodes.size()) {}
+
+  WideBvh widen() {
+    findForests();
+    wide_.bounds = binary_.bounds;
+    wide_.order.reserve(binary_.order.size());
+    wide_.nodes.emplace_back();
+    wide_.maxDepth = fill(0, 0, binary_.bounds);
+    const double area = halfArea(binary_.bounds);
+    wide_.sahCost = options_.nodeCost + (area > 0 ? cost_ / area : 0);
+    return std::move(wide_);
+  }
+
+private:
+  struct Side {
+    Box box;
+    uint32_t child, count;
+    [[nodiscard]] bool absent() const { return box.lower.x > box.upper.x; }
+  };
+
+  static Side side(const BinaryNode& node, bool right) {
+    return right ? Side{{node.lower1, node.upper1}, node.child1, node.count1}
+                 : Side{{node.lower0, node.upper0}, node.child0, node.count0};
+  }
+
+  [[nodiscard]] float costOf(const Side& side, uint32_t children) const {
+    if (side.count == 0) return forests_[side.child].cost[children];
+    return static_cast<float>(halfArea(side.box)) * options_.itemCost * static_cast<float>(side.count);
+  }
+
+  // Children come after their parents, so backwards is upwards.
+  void findForests() {
+    for (size_t i = binary_.nodes.size(); i-- > 0;) {
+      const Side left = side(binary_.nodes[i], false);
+      const Side right = side(binary_.nodes[i], true);
+      if (left.absent() || right.absent()) continue; // a root with one leaf or none
+      findForest(left, right, forests_[i]);
+    }
+  }
+
+  void findForest(const Side& left, const Side& right, Forest& forest) const {
+    const uint32_t leftItems = left.count != 0 ? left.count : forests_[left.child].itemCount;
+    const uint32_t rightItems = right.count != 0 ? right.count : forests_[right.child].itemCount;
+    forest.firstItem = left.count != 0 ? left.child : forests_[left.child].firstItem;
+    forest.itemCount = leftItems + rightItems;
+    std::array<float, kBvhWidth + 1> distributed{};
+    for (uint32_t i = 2; i <= kBvhWidth; ++i) {
+      distributed[i] = kInfinity;
+      for (uint32_t k = 1; k < i; ++k) {
+        const float cost = costOf(left, std::min(k, kBvhWidth - 1)) + costOf(right, std::min(i - k, kBvhWidth - 1));
+        if (cost < distributed[i]) {
+          distributed[i] = cost;
+          forest.left[i] = static_cast<uint8_t>(k);
+        }
+      }
+    }
+    Box box = left.box;
+    box.grow(right.box);
+    const auto area = static_cast<float>(halfArea(box));
+    forest.cost[1] = distributed[kBvhWidth] + area * options_.nodeCost;
+    if (forest.itemCount <= options_.maxLeafItems) {
+      const float asLeaf = area * options_.itemCost * static_cast<float>(forest.itemCount);
+      forest.leaf = asLeaf <= forest.cost[1];
+      forest.cost[1] = std::min(forest.cost[1], asLeaf);
+    }
+    for (uint32_t i = 2; i < kBvhWidth; ++i) {
+      forest.cost[i] = distributed[i];
+      if (forest.cost[i - 1] <= distributed[i]) {
+        forest.cost[i] = forest.cost[i - 1];
+        forest.left[i] = 0;
+      }
+    }
+  }
+
+  void addChildren(const Side& side, uint32_t most, std::array<Child, kBvhWidth>& children, uint32_t& count) const {
+    if (side.count != 0) {
+      children[count++] = {side.box, 0, side.child, side.count};
+      return;
+    }
+    const Forest& forest = forests_[side.child];
+    while (most > 1 && forest.left[most] == 0) --most;
+    if (most == 1) {
+      children[count++] = {side.box, side.child, forest.firstItem, forest.leaf ? forest.itemCount : 0};
+      return;
+    }
+    distribute(side.child, most, children, count);
+  }
+
+  void distribute(uint32_t node, uint32_t most, std::array<Child, kBvhWidth>& children, uint32_t& count) const {
+    const uint32_t left = forests_[node].left[most];
+    addChildren(side(binary_.nodes[node], false), std::min(left, kBvhWidth - 1), children, count);
+    addChildren(side(binary_.nodes[node], true), std::min(most - left, kBvhWidth - 1), children, count);
+  }
+
+  // Fills wide node `self` with what is below a binary node. Returns the levels below, itself included.
+  uint32_t fill(uint32_t self, uint32_t node, const Box& box) {
+    std::array<Child, kBvhWidth> children;
+    uint32_t count = 0;
+    if (side(binary_.nodes[node], true).absent()) {
+      const Side only = side(binary_.nodes[node], false);
+      if (only.count != 0) children[count++] = {only.box, 0, only.child, only.count};
+    } else {
+      distribute(node, kBvhWidth, children, count);
+    }
+    const std::array<const Child*, kBvhWidth> slots = assignSlots({children.data(), count}, box);
+    wide_.nodes[self] = encode(slots, box);
+
+    const auto firstChild = static_cast<uint32_t>(wide_.nodes.size());
+    wide_.nodes[self].firstChild = firstChild;
+    wide_.nodes[self].firstItem = static_cast<uint32_t>(wide_.order.size());
+    uint32_t inner = 0;
+    for (const Child* child : slots) {
+      if (child == nullptr) continue;
+      cost_ += halfArea(child->box) *
+               (child->itemCount != 0 ? options_.itemCost * static_cast<float>(child->itemCount) : options_.nodeCost);
+      if (child->itemCount == 0) ++inner;
+      for (uint32_t i = 0; i < child->itemCount; ++i) wide_.order.push_back(binary_.order[child->firstItem + i]);
+    }
+    wide_.nodes.resize(firstChild + inner);
+    uint32_t next = firstChild;
+    uint32_t depth = 0;
+    for (const Child* child : slots) {
+      if (child != nullptr && child->itemCount == 0) depth = std::max(depth, fill(next++, child->node, child->box));
+    }
+    return depth + 1;
+  }
+
+  // A slot is a corner of the node: a child goes towards the corner that its center is nearest to, so that slots in the
+  // order of a ray's octant are roughly in the order of distance. The best of the remaining pairs, one after another.
+  static std::array<const Child*, kBvhWidth> assignSlots(std::span<const Child> children, const Box& box) {
+    std::array<std::array<float, kBvhWidth>, kBvhWidth> gain{}; // [child][slot]
+    const glm::vec3 center = 0.5f * box.lower + 0.5f * box.upper;
+    for (size_t c = 0; c < children.size(); ++c) {
+      const glm::vec3 offset = 0.5f * children[c].box.lower + 0.5f * children[c].box.upper - center;
+      for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+        for (int axis = 0; axis < 3; ++axis) gain[c][slot] += (slot >> axis & 1u) != 0 ? offset[axis] : -offset[axis];
+      }
+    }
+    std::array<const Child*, kBvhWidth> slots{};
+    std::array<bool, kBvhWidth> placed{};
+    for (size_t round = 0; round < children.size(); ++round) {
+      size_t bestChild = 0;
+      uint32_t bestSlot = 0;
+      float best = -kInfinity;
+      for (size_t c = 0; c < children.size(); ++c) {
+        if (placed[c]) continue;
+        for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+          if (slots[slot] == nullptr && gain[c][slot] > best) {
+            best = gain[c][slot];
+            bestChild = c;
+            bestSlot = slot;
+          }
+        }
+      }
+      placed[bestChild] = true;
+      slots[bestSlot] = &children[bestChild];
+    }
+    return slots;
+  }
+
+  // Power of two above all children's extent, so that no cell lies beyond the last.
+  static int frameExponent(double extent) {
+    int exponent = kSmallestExponent;
+    if (extent > 0) exponent = std::clamp(std::ilogb(extent), kSmallestExponent, kLargestExponent);
+    while (exponent < kLargestExponent && std::ceil(extent / std::ldexp(1 / kCells, exponent)) > kCells - 1) ++exponent;
+    return exponent;
+  }
+
+  static gpu::BvhNode encode(const std::array<const Child*, kBvhWidth>& slots, const Box& box) {
+    gpu::BvhNode node{};
+    if (box.lower.x > box.upper.x) return node;
+    node.origin = box.lower;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double lower = box.lower[axis];
+      const int exponent = frameExponent(static_cast<double>(box.upper[axis]) - lower);
+      const double cell = std::ldexp(1 / kCells, exponent);
+      node.exponents |= static_cast<uint32_t>(exponent + kExponentBias) << 8 * axis;
+      for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+        if (slots[slot] == nullptr) continue;
+        const Box& child = slots[slot]->box;
+        const double from = std::floor((static_cast<double>(child.lower[axis]) - lower) / cell);
+        const double to = std::ceil((static_cast<double>(child.upper[axis]) - lower) / cell);
+        const uint32_t shift = 8 * (slot % 4);
+        node.lower[2 * axis + slot / 4] |= static_cast<uint32_t>(std::clamp(from, 0.0, kCells - 1)) << shift;
+        node.upper[2 * axis + slot / 4] |= static_cast<uint32_t>(std::clamp(to, 0.0, kCells - 1)) << shift;
+      }
+    }
+    for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+      if (slots[slot] == nullptr) continue;
+      const uint32_t items = slots[slot]->itemCount;
+      if (items == 0) {
+        node.contents |= 1u << (gpu::kBvhInnerShift + slot);
+      } else {
+        node.contents |= ((1u << items) - 1) << (kBvhItemsPerSlot * slot);
+      }
+    }
+    return node;
+  }
+
+  const Bvh& binary_;
+  const WideBvhOptions& options_;
+  std::vector<Forest> forests_;
+  WideBvh wide_;
+  double cost_ = 0; // sum of half area x cost over children
+};
+
+} // namespace
+
+WideBvh widenBvh(const Bvh& binary, const WideBvhOptions& options) { return Widener(binary, options).widen(); }
+
+Box childBox(const gpu::BvhNode& node, uint32_t slot) {
+  const bool inner = (node.contents >> (gpu::kBvhInnerShift + slot) & 1u) != 0;
+  const bool leaf = (node.contents >> (kBvhItemsPerSlot * slot) & ((1u << kBvhItemsPerSlot) - 1)) != 0;
+  Box box;
+  if (!inner && !leaf) return box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int exponent = static_cast<int>(node.exponents >> 8 * axis & 0xffu) - kExponentBias;
+    const double cell = std::ldexp(1 / kCells, exponent);
+    const uint32_t from = node.lower[2 * axis + slot / 4] >> 8 * (slot % 4) & 0xffu;
+    const uint32_t to = node.upper[2 * axis + slot / 4] >> 8 * (slot % 4) & 0xffu;
+    // Rounded outwards: the exact bound may lie between floats.
+    box.lower[axis] = static_cast<float>(node.origin[axis] + from * cell);
+    box.upper[axis] = static_cast<float>(node.origin[axis] + to * cell);
+    if (box.lower[axis] > node.origin[axis] + from * cell)
+      box.lower[axis] = std::nextafter(box.lower[axis], -kInfinity);
+    if (box.upper[axis] < node.origin[axis] + to * cell) box.upper[axis] = std::nextafter(box.upper[axis], kInfinity);
+  }
+  return box;
+}
+
+} // namespace isophote

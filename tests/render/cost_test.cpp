@@ -1,0 +1,50 @@
+// What a render of the Cornell box costs apart from time: code, rays, memory. Grown figures want a reason.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "isophote/path_tracer.hpp"
+#include "support/gpu_device.hpp"
+#include "support/render.hpp"
+#include "support/scenes.hpp"
+
+namespace isophote {
+namespace {
+
+// Compilers of other versions emit a little more or less.
+constexpr double kMargin = 1.03;
+
+RenderStatistics costOfCornellBox() {
+  const Device& device = test::gpuDevice();
+  const GpuScene scene(device, test::cornellBox());
+  Film film(device, {.width = 32, .height = 32, .aovs = false});
+  PathTracer tracer(device, scene, {.maxDepth = 8, .seed = 1});
+  tracer.render(test::cornellCamera(), film, {0, 16});
+  test::expectHealthy(tracer.statistics());
+  return tracer.statistics();
+}
+
+TEST(RenderCost, KernelsOfADiffuseSceneAreNoLargerThanRecorded) {
+  // A feature that this scene lacks adds no code to it.
+  const std::map<std::string, uint32_t> bytes{
+      {"prepare", 9096},         {"regenerate", 22988},       {"intersect_closest", 62772},
+      {"shade_surface", 138160}, {"intersect_shadow", 64556}, {"accumulate", 14824}};
+  const RenderStatistics cost = costOfCornellBox();
+  EXPECT_EQ(cost.kernels.size(), bytes.size());
+  for (const KernelStatistics& kernel : cost.kernels) {
+    ASSERT_TRUE(bytes.contains(kernel.name)) << kernel.name;
+    EXPECT_LE(kernel.spirvBytes, kMargin * bytes.at(kernel.name)) << kernel.name;
+  }
+}
+
+TEST(RenderCost, RaysAndBytesOfAPathAreNoMoreThanRecorded) {
+  const RenderStatistics cost = costOfCornellBox();
+  EXPECT_LE(cost.bytesPerPath, 160u);
+  EXPECT_EQ(cost.primaryRays, 32u * 32u * 16u);
+  const double samples = 32.0 * 32.0 * 16.0;
+  EXPECT_NEAR(static_cast<double>(cost.bounceRays) / samples, 1.939, 0.02);
+  EXPECT_NEAR(static_cast<double>(cost.shadowRays) / samples, 1.726, 0.02);
+}
+
+} // namespace
+} // namespace isophote

@@ -1,0 +1,142 @@
+#include "accel/wide_bvh.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using namespace isophote;
+using gpu::BvhNode;
+
+namespace {
+
+std::vector<Box> randomBoxes(uint32_t count, uint32_t seed, float size, float spread = 10) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> position(-spread, spread);
+  std::exponential_distribution<float> extent(1 / size);
+  std::vector<Box> boxes(count);
+  for (Box& box : boxes) {
+    const glm::vec3 lower(position(random), position(random), position(random));
+    box.grow(lower);
+    box.grow(lower + glm::vec3(extent(random), extent(random), extent(random)));
+  }
+  return boxes;
+}
+
+bool contains(const Box& outer, const Box& inner) {
+  return glm::all(glm::lessThanEqual(outer.lower, inner.lower)) &&
+         glm::all(glm::greaterThanEqual(outer.upper, inner.upper));
+}
+
+uint32_t itemsOf(const BvhNode& node, uint32_t slot) {
+  return std::popcount(node.contents >> gpu::kBvhItemsPerSlot * slot & ((1u << gpu::kBvhItemsPerSlot) - 1));
+}
+
+bool isInner(const BvhNode& node, uint32_t slot) { return (node.contents >> (gpu::kBvhInnerShift + slot) & 1u) != 0; }
+
+// Every item is in one leaf, and all boxes on the way to it hold its own. Returns the depth.
+uint32_t checkTree(const std::vector<Box>& boxes, const WideBvh& bvh, uint32_t maxLeafItems = 3) {
+  std::vector<uint32_t> seen(boxes.size()), nodeSeen(bvh.nodes.size());
+  std::vector<Box> path;
+  const std::function<uint32_t(uint32_t)> visit = [&](uint32_t index) -> uint32_t {
+    ++nodeSeen.at(index);
+    const BvhNode& node = bvh.nodes.at(index);
+    uint32_t depth = 0, child = node.firstChild, item = node.firstItem;
+    for (uint32_t slot = 0; slot < gpu::kBvhWidth; ++slot) {
+      const uint32_t items = itemsOf(node, slot);
+      path.push_back(childBox(node, slot));
+      if (isInner(node, slot)) {
+        EXPECT_EQ(items, 0u);
+        depth = std::max(depth, visit(child++));
+      }
+      EXPECT_LE(items, maxLeafItems);
+      for (uint32_t i = 0; i < items; ++i) {
+        const uint32_t number = bvh.order.at(item++);
+        ++seen.at(number);
+        for (const Box& box : path) EXPECT_TRUE(contains(box, boxes[number]));
+      }
+      path.pop_back();
+    }
+    return depth + 1;
+  };
+  const uint32_t depth = visit(0);
+  EXPECT_EQ(depth, bvh.maxDepth);
+  EXPECT_EQ(bvh.order.size(), boxes.size());
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1u), static_cast<ptrdiff_t>(boxes.size()));
+  EXPECT_EQ(std::count(nodeSeen.begin(), nodeSeen.end(), 1u), static_cast<ptrdiff_t>(bvh.nodes.size()));
+  return depth;
+}
+
+} // namespace
+
+TEST(WideBvh, NoBoxesGiveOneEmptyNode) {
+  const WideBvh bvh = widenBvh(buildBvh({}));
+  ASSERT_EQ(bvh.nodes.size(), 1u);
+  EXPECT_EQ(bvh.nodes[0].contents, 0u);
+}
+
+TEST(WideBvh, HoldsEveryItemOnceInsideItsBoxes) {
+  for (const uint32_t count : {1u, 2u, 3u, 4u, 5u, 8u, 9u, 24u, 25u, 100u, 1000u, 20000u}) {
+    const std::vector<Box> boxes = randomBoxes(count, count, 0.3f);
+    const Bvh binary = buildBvh(boxes);
+    EXPECT_LE(checkTree(boxes, widenBvh(binary)), binary.maxDepth);
+  }
+}
+
+TEST(WideBvh, LeafSizeOptionIsObeyed) {
+  const std::vector<Box> boxes = randomBoxes(3000, 9, 0.3f);
+  for (const uint32_t size : {1u, 2u, 3u}) {
+    checkTree(boxes, widenBvh(buildBvh(boxes, {.maxLeafItems = size}), {.maxLeafItems = size}), size);
+  }
+}
+
+TEST(WideBvh, BoxesAreHeldAtAnySizeAndPlace) {
+  // Flat, tiny, huge and far away: a cell of a frame is a power of two, and its origin a float.
+  std::vector<Box> boxes = randomBoxes(200, 4, 1);
+  for (const float size : {1e-30f, 1e-6f, 1e3f, 1e15f}) {
+    for (const Box& box : randomBoxes(60, 5, size, size)) boxes.push_back(box);
+    for (const Box& box : randomBoxes(60, 6, 1e-3f * size)) boxes.push_back({1e4f + box.lower, 1e4f + box.upper});
+  }
+  for (int i = 0; i < 50; ++i) boxes.push_back({glm::vec3(i, 2, -3), glm::vec3(i + 1, 2, -3)});
+  checkTree(boxes, widenBvh(buildBvh(boxes)));
+}
+
+TEST(WideBvh, FramesAreAtMostTwiceAndABitAsWideAsTheirNode) {
+  const std::vector<Box> boxes = randomBoxes(5000, 7, 0.1f);
+  const WideBvh bvh = widenBvh(buildBvh(boxes));
+  for (const BvhNode& node : bvh.nodes) {
+    Box all;
+    for (uint32_t slot = 0; slot < gpu::kBvhWidth; ++slot) all.grow(childBox(node, slot));
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = std::ldexp(1.0, static_cast<int>(node.exponents >> 8 * axis & 0xffu) - 127);
+      EXPECT_LE(size, 2.03 * (static_cast<double>(all.upper[axis]) - all.lower[axis])) << axis;
+    }
+  }
+}
+
+TEST(WideBvh, CostsLessThanTheBinaryTreeAndFillsItsNodes) {
+  const std::vector<Box> boxes = randomBoxes(20000, 3, 0.05f);
+  const Bvh binary = buildBvh(boxes, {.itemCost = 0.4f});
+  const WideBvh wide = widenBvh(binary);
+  EXPECT_LT(wide.sahCost, 0.6 * binary.sahCost);
+  uint64_t children = 0;
+  for (const BvhNode& node : wide.nodes) {
+    for (uint32_t slot = 0; slot < gpu::kBvhWidth; ++slot) children += isInner(node, slot) || itemsOf(node, slot) > 0;
+  }
+  EXPECT_GT(static_cast<double>(children) / static_cast<double>(wide.nodes.size()), 4.5);
+}
+
+TEST(WideBvh, SlotsGoByPlace) {
+  // Eight boxes in the corners of a cube: each gets the slot of its corner.
+  std::vector<Box> boxes;
+  for (uint32_t slot = 0; slot < 8; ++slot) {
+    const glm::vec3 corner(slot & 1u, slot >> 1 & 1u, slot >> 2);
+    boxes.push_back({3.0f * corner, 3.0f * corner + 1.0f});
+  }
+  const WideBvh bvh = widenBvh(buildBvh(boxes, {.maxLeafItems = 1}), {.maxLeafItems = 1});
+  ASSERT_EQ(bvh.nodes.size(), 1u);
+  EXPECT_EQ(bvh.order, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+}
