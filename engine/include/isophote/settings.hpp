@@ -16,7 +16,8 @@ enum class TriangleLightSampling : uint32_t { Area, SolidAngle };
 /// Both see the whole sphere: uniformly in solid angle, or over its area as Monte Carlo textbooks begin.
 enum class SphereLightSampling : uint32_t { Cone, Area };
 enum class DirectionSampling : uint32_t { Lobes, Uniform, Cosine, Ndf, VisibleNormals, Mixture };
-/// What glass does to shadow rays: it blocks them, and paths find the light behind it; or they cross it unbent (biased).
+/// What glass does to shadow rays: it blocks them, and paths find the light behind it; or they cross it unbent
+/// (biased).
 enum class ShadowTransmission : uint32_t { Off, Straight };
 enum class MisHeuristic : uint32_t { Balance, Power };
 

@@ -42,8 +42,8 @@ void PathPool::reset(const Device& device) const {
 
 std::vector<BufferUse> PathPool::buffers() const {
   std::vector<BufferUse> uses;
-  for (const Buffer* buffer : {&queues, &rays, &hits, &paths, &shadows, &interiors, &receivers, &media, &straight, &wave, &render,
-                               &filterTable, &readback}) {
+  for (const Buffer* buffer : {&queues, &rays, &hits, &paths, &shadows, &interiors, &receivers, &media, &straight,
+                               &wave, &render, &filterTable, &readback}) {
     if (buffer->bytes() != 0) uses.push_back({buffer->name(), buffer->bytes()});
   }
   return uses;
