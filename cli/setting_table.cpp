@@ -97,6 +97,10 @@ std::vector<SettingEntry> makeTable() {
               {"ndf", DirectionSampling::Ndf},
               {"visible-normals", DirectionSampling::VisibleNormals},
               {"mixture", DirectionSampling::Mixture}}),
+      choice({"shadow-transmission", "off, straight", "off", "off",
+              "glass before a light: shadow rays end there and paths find the light, or they cross it unbent (bias)"},
+             estimator, &E::shadowTransmission,
+             {{"off", ShadowTransmission::Off}, {"straight", ShadowTransmission::Straight}}),
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
              estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
       choice(
@@ -167,6 +171,11 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
         {"value", "off"},
         {"exact", "on"},
         {"leaves_out", "light scattered more than once between the facets of rough surfaces"}};
+  }
+  if (settings.estimator.shadowTransmission != ShadowTransmission::Off) {
+    json["shadow-transmission"] = {{"value", "straight"},
+                                   {"exact", "off"},
+                                   {"leaves_out", "the bending of light that glass lets through to other surfaces"}};
   }
   return json;
 }

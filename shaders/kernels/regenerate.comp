@@ -49,5 +49,6 @@ void main() {
     MediaRef(pc.media).items[slot] = MediaState(around, around, 0.0, 0.0, 0u);
   }
   if (kHasTransmission) InteriorRef(pc.interiors).items[slot] = InteriorState(1.0, 0u);
+  if (kStraightShadows) StraightRef(pc.straight).items[slot] = StraightState(0.0, kStraightNone);
   pushSlot(kQueueRay, slot);
 }

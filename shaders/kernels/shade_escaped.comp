@@ -5,7 +5,7 @@
 #include "film/aov.glsl"
 #include "geometry/ray_sphere.glsl"
 #include "kernels/absorption.glsl"
-#include "kernels/mis.glsl"
+#include "kernels/straight_shadow.glsl"
 #include "kernels/wavefront.glsl"
 #include "light/environment.glsl"
 #include "light/light_sample.glsl"
@@ -30,24 +30,24 @@ vec3 sphereLightEmission(const SceneRef scene, const RayState ray, const uint in
     pdfLight = sphereLightHitPdf(scene, light, sphere, from, ray.direction, receiverOf(slot, from));
   }
   const vec3 Le = sphereLightRadiance(sphere, from, ray.direction);
-  return path.beta * Le * emissionWeight(path.pdfSolidAngle, pdfLight);
+  return path.beta * Le * foundWeight(slot, path.pdfSolidAngle, pdfLight);
 }
 
-vec3 sunEmission(const SceneRef scene, const vec3 direction, const PathState path) {
+vec3 sunEmission(const SceneRef scene, const vec3 direction, const uint slot, const PathState path) {
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < scene.view.sunCount; ++i) {
     const PunctualLightRecord sun = PunctualLightRef(scene.view.punctualLights).items[i];
     if (!meetsSun(sun, direction)) continue;
     const float pdfLight = path.pdfSolidAngle > 0.0 ? sunHitPdf(scene, i, sun) : 0.0;
-    sum += path.beta * sun.intensity * emissionWeight(path.pdfSolidAngle, pdfLight);
+    sum += path.beta * sun.intensity * foundWeight(slot, path.pdfSolidAngle, pdfLight);
   }
   return sum;
 }
 
-vec3 environmentEmission(const SceneRef scene, const vec3 direction, const PathState path) {
+vec3 environmentEmission(const SceneRef scene, const vec3 direction, const uint slot, const PathState path) {
   if (scene.view.environment.width == 0u) return vec3(0.0); // absent under an all-features kernel
   const float pdfLight = path.pdfSolidAngle > 0.0 ? environmentHitPdf(scene, direction) : 0.0;
-  return path.beta * environmentRadiance(scene, direction) * emissionWeight(path.pdfSolidAngle, pdfLight);
+  return path.beta * environmentRadiance(scene, direction) * foundWeight(slot, path.pdfSolidAngle, pdfLight);
 }
 
 void main() {
@@ -64,8 +64,8 @@ void main() {
     received = sphereLightEmission(scene, ray, instance, slot, path);
     paths.items[slot].hit = path.hit;
   } else {
-    if (kHasSuns) received += sunEmission(scene, ray.direction, path);
-    if (kHasEnvironment) received += environmentEmission(scene, ray.direction, path);
+    if (kHasSuns) received += sunEmission(scene, ray.direction, slot, path);
+    if (kHasEnvironment) received += environmentEmission(scene, ray.direction, slot, path);
   }
   paths.items[slot].radiance += received;
   pushSlot(kQueueFinished, slot);

@@ -6,6 +6,7 @@
 #include "geometry/surface.glsl"
 #include "kernels/mis.glsl"
 #include "kernels/shadow_ray.glsl"
+#include "kernels/straight_shadow.glsl"
 #include "kernels/vertex.glsl"
 #include "medium/henyey_greenstein.glsl"
 #include "medium/medium_stack.glsl"
@@ -41,6 +42,7 @@ void sampleDirectLight(const SceneRef scene, const vec3 p, const vec3 wo, const 
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, phase);
   const vec3 contribution = beta * phase * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
+  keepLightWeight(slot, weight);
   MediaRef(pc.media).items[slot].shadow = MediaRef(pc.media).items[slot].path;
   queueShadowRay(slot, p, light, contribution);
 }
@@ -59,6 +61,7 @@ bool scatter(const SceneRef scene, const vec3 p, const vec3 wo, const float g, c
   float power = max(path.beta.x, max(path.beta.y, path.beta.z));
   if (kHasTransmission) power *= InteriorRef(pc.interiors).items[slot].etaScale;
   if (!survivesRoulette(power, sample2d(key, pair + 3u).y, path)) return false;
+  if (kStraightShadows) StraightRef(pc.straight).items[slot].path = kStraightSampled;
   RayRef(pc.rays).items[slot] = RayState(p, 0.0, wi, kRayInfinity);
   MediaRef(pc.media).items[slot].travelled = 0.0;
   return true;

@@ -12,6 +12,7 @@
 #include "kernels/absorption.glsl"
 #include "kernels/mis.glsl"
 #include "kernels/shadow_ray.glsl"
+#include "kernels/straight_shadow.glsl"
 #include "kernels/vertex.glsl"
 #include "kernels/wavefront.glsl"
 #include "light/emission.glsl"
@@ -33,12 +34,15 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
   if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
+  const bool glass = transmits(material.bsdf);
+  if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
 
+  keepLightWeight(slot, glass ? 0.0 : weight);
   if (kHasVolumes) MediaRef(pc.media).items[slot].shadow = wiLocal.z < 0.0 ? crossing.across : crossing.here;
   const vec3 origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, light.wi);
   queueShadowRay(slot, origin, light, contribution);
@@ -88,6 +92,7 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
   if (kHasTransmission) power *= etaScaleBehind(slot, bsdf.eta);
   if (!survivesRoulette(power, choice.y, path)) return false;
   path.pdfSolidAngle = bsdf.delta ? 0.0 : bsdf.pdfSolidAngle;
+  followGlass(slot, transmits(material.bsdf), bsdf);
   if (kHasVolumes) {
     MediaRef(pc.media).items[slot].travelled = 0.0;
     if (bsdf.wiLocal.z < 0.0) MediaRef(pc.media).items[slot].path = crossing.across;
@@ -109,7 +114,7 @@ vec3 emissionAt(const SceneRef scene, const SurfaceHit surface, const RayState r
     pdfLight = emitterPdfSolidAngle(scene, surface, abs(dot(surface.ng, ray.direction)), distance(surface.p, from),
                                     receiverOf(slot, from));
   }
-  return Le * emissionWeight(path.pdfSolidAngle, pdfLight);
+  return Le * foundWeight(slot, path.pdfSolidAngle, pdfLight);
 }
 
 // The media on the other side of the surface; where it bounds none, those on this side.
@@ -118,14 +123,6 @@ MediumCrossing crossSurface(const SceneRef scene, const SurfaceHit surface, cons
   if (!isVolumeBoundary(scene, surface.material)) return noCrossing(scene, here);
   if (surface.frontFace && isFull(here)) countStatus(kStatusMediumOverflow);
   return crossBoundary(scene, here, surface.material, surface.frontFace);
-}
-
-// Index behind the surface over that in front: of a boundary those of the two media, else the material's own behind.
-float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing, const uint channel) {
-  const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], channel);
-  if (ior < 1.0) return ior;
-  return isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing, channel)
-                                                   : ior / mediumIor(scene, crossing.before, channel);
 }
 
 // Sends the path straight on, where the surface is a boundary that does nothing.
@@ -167,7 +164,7 @@ void main() {
   const uint channel = dispersedChannel(scene, surface, key, slot, kept);
   float eta = 1.0;
   if (kHasVolumes) {
-    eta = etaAt(scene, surface, crossing, channel);
+    eta = etaAt(scene, surface.material, crossing, channel);
   } else if (kHasSpecular) {
     eta = etaInAir(scene, surface, channel);
   }

@@ -26,8 +26,12 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ReceiverRef 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ShadowRef { ShadowState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer MediaRef { MediaState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InteriorRef { InteriorState items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer StraightRef { StraightState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ReplicateRef { ReplicateSum items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { AovSum items[]; };
+
+// Whether shadow rays cross glass, unbent.
+const bool kStraightShadows = kHasTransmission && kShadowTransmission == 1u;
 
 // Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
 bool keepsReceivers() { return kHasLightTree && (kHasEmissiveTriangles || kHasSphereLights) && pc.receivers != 0ul; }

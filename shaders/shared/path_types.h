@@ -65,6 +65,17 @@ struct InteriorState {
   uint channel;   // the one that dispersion left of the path: 1 + its index, 0: all
 };
 
+// StraightState.path: whether shadow rays that cross glass unbent have counted the light that a path may still find.
+ISOPHOTE_CONST uint kStraightNone = 0u;    // not since it left the camera, a mirror or glass that reflected it
+ISOPHOTE_CONST uint kStraightSampled = 1u; // its last vertex sent such a ray
+ISOPHOTE_CONST uint kStraightCounted = 2u; // the same, and it has passed nothing but glass since: what it finds is theirs
+
+// Only where shadow rays cross glass unbent.
+struct StraightState {
+  float lightWeight; // of multiple importance sampling, in the shadow ray's contribution; 0: glass stops this ray
+  uint path;         // kStraight*
+};
+
 ISOPHOTE_CONST uint kQueueFree = 0u;
 ISOPHOTE_CONST uint kQueueRay = 1u;
 ISOPHOTE_CONST uint kQueueSurface = 2u;
@@ -155,6 +166,7 @@ struct KernelArgs {
   Address interiors; // InteriorState[capacity], 0 where nothing transmits
   Address receivers; // LightReceiver that sampled a light last, for the weight of what its BSDF ray finds; 0: not kept
   Address media;     // MediaState[capacity], 0 without volumes
+  Address straight;  // StraightState[capacity], 0 where glass stops shadow rays
   uint capacity;
   uint activeLimit; // paths in flight, 0: no new path starts
   uint prepare;     // kPrepare*

@@ -75,6 +75,18 @@ TEST(Watertight, NoRayLeavesASphereWithFarVertices) {
   EXPECT_EQ(misses.occlusion, 0u);
 }
 
+// Number 39 of the reliability list with its number of rays: two spheres, 5e6 rays each.
+TEST(WatertightSlow, Test39TenMillionRaysStayInside) {
+  for (const uint32_t rings : {25u, 100u}) { // 50 and 200 parts around
+    const Scene scene = test::sceneOf({test::sphereMesh(kFarPosition, 2, rings)});
+    for (uint32_t part = 0; part < 5; ++part) {
+      const Misses misses = countMisses(scene, kFarPosition, 0.5f, 1000000, 100 * rings + part);
+      EXPECT_EQ(misses.closest, 0u);
+      EXPECT_EQ(misses.occlusion, 0u);
+    }
+  }
+}
+
 TEST(Watertight, NoRayLeavesASpherePlacedFarAway) {
   Scene scene = test::sceneOf({test::sphereMesh({0, 0, 0}, 2, 50)});
   scene.instances[0].worldFromObject[3] = glm::dvec4(kFarPosition, 1);

@@ -24,6 +24,7 @@ struct LeaveCase {
   vec3 v2;
   vec2 barycentrics;
   vec3 direction; // world
+  vec3 neighbor;  // from the triangle to another one parallel to it, in object space
   vec4 worldFromObject[3];
   vec4 objectFromWorld[3];
 };
@@ -35,6 +36,7 @@ struct LeaveResult {
   vec3 pError;
   vec3 originObject; // of the ray that leaves on the side of `direction`
   uint found;        // the triangle is met again
+  uint neighborFound;
 };
 
 ISOPHOTE_SHARED_END

@@ -20,5 +20,7 @@ LeaveResult probe(const LeaveCase c) {
   const vec3 originObject = transformPoint(objectFromWorld, origin);
   const TriangleRay ray = makeTriangleRay(originObject, transformVector(objectFromWorld, c.direction));
   const TriangleHit again = intersectTriangle(ray, c.v0, c.v1, c.v2);
-  return LeaveResult(object.p, object.pError, hit.p, hit.pError, originObject, again.found ? 1u : 0u);
+  const TriangleHit other = intersectTriangle(ray, c.v0 + c.neighbor, c.v1 + c.neighbor, c.v2 + c.neighbor);
+  return LeaveResult(object.p, object.pError, hit.p, hit.pError, originObject, again.found ? 1u : 0u,
+                     other.found ? 1u : 0u);
 }

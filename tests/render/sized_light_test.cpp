@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "isophote/sky.hpp"
 #include "support/render.hpp"
 #include "support/scenes.hpp"
 
@@ -129,6 +130,40 @@ TEST(RenderSizedLight, SmallSunsKeepTheirIrradiance) {
     const double unit = 2 / (kPi * radius * radius) * std::exp2(-35);
     EXPECT_NEAR(mean.mean(), 2 / kPi, 1e-4 + 0.02 * radius * radius + unit / std::sqrt(256.0 * 64) * 4) << radius;
   }
+}
+
+// The sun of --sky is a disk of its real size: straight ahead and in a mirror its radiance is the illuminance over
+// pi sin^2 a; what the view receives of it, and what a floor receives, is what the sun without a size would give.
+TEST(RenderSizedLight, TheSkysSunIsADiskOfItsIlluminance) {
+  const Sky sky = makeSky({.elevationDegrees = 35, .azimuthDegrees = 60, .turbidity = 3});
+  const double angle = kSunAngularRadius;
+  EXPECT_NEAR(angle * 180 / kPi, 0.2665, 1e-4);
+  const double illuminance = sky.sun.intensity.g, L = illuminance / (kPi * std::pow(std::sin(angle), 2));
+  const glm::dvec3 toSun = -sky.sun.direction;
+
+  Scene empty;
+  empty.lights = {sky.sun};
+  const double half = 2 * angle; // of the view
+  const Image ahead = renderImage(empty, lookAt({0, 0, 0}, toSun, 2 * half), 32, 32, 64);
+  const std::vector<float> values = plane(ahead, "G");
+  EXPECT_NEAR(values[16 * 32 + 16], L, 1e-5 * L);
+  EXPECT_EQ(values[0], 0);
+  double received = 0;
+  for (const float value : values) received += double(value) * std::pow(2 * std::tan(half) / 32, 2);
+  EXPECT_NEAR(received, illuminance, 2e-3 * illuminance);
+
+  Scene mirrored = empty; // a mirror that turns the view upwards into the sun
+  const glm::dvec3 forward(0, 0, -1);
+  const glm::dvec3 normal = glm::normalize(toSun - forward);
+  const glm::dvec3 u = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), normal)), v = glm::cross(normal, u);
+  addPrimitive(mirrored, quad(2.0 * forward - u - v, 2.0 * u, 2.0 * v, addMaterial(mirrored, metal(glm::vec3(1), 0))));
+  const Image seen = renderImage(mirrored, lookAt({0, 0, 0}, forward, 1e-4), 4, 4, 16);
+  for (const float value : plane(seen, "G")) EXPECT_NEAR(value, L, 1e-4 * L);
+
+  const Image lit = renderImage(floorUnder(sky.sun), sensorAt({0, 0, 0}), 8, 8, 256);
+  Moments mean;
+  for (const float value : plane(lit, "G")) mean.add(value);
+  EXPECT_NEAR(mean.mean(), illuminance * toSun.y / kPi, 2e-4 * illuminance);
 }
 
 /// A floor and a glossy plate under three spheres, one a spotlight, one with a range, one of them half sunk into the

@@ -62,6 +62,9 @@ TEST_F(CliRender, UnbiasedRefusesABiasedSetting) {
   EXPECT_EQ(refused.exitCode, 2) << refused.err;
   EXPECT_NE(refused.err.find("max-depth"), std::string::npos) << refused.err;
   expectOneErrorLine(refused);
+  const auto straight = render({"--spp", "1", "--unbiased", "--set", "shadow-transmission=straight"});
+  EXPECT_EQ(straight.exitCode, 2) << straight.err;
+  EXPECT_NE(straight.err.find("shadow-transmission"), std::string::npos) << straight.err;
   EXPECT_EQ(render({"--spp", "1", "--unbiased", "--quiet"}).exitCode, 0);
 }
 

@@ -326,6 +326,31 @@ TEST(PackScene, LightIndicesFindTheirTriangles) {
   EXPECT_NEAR(sumOfPmf(packed), 1, 1e-6);
 }
 
+// The tree chooses by where lights are, so it must know where their instances stand.
+TEST(PackScene, TheLightTreeHoldsLightsWhereTheirInstancesStand) {
+  Scene scene = sceneOf({square()}, 10);
+  scene.materials[0].emissive = glm::vec3(1);
+  for (size_t i = 0; i < scene.instances.size(); ++i)
+    scene.instances[i].worldFromObject = placedAt({7.0 * static_cast<double>(i), 3, i % 2 == 0 ? -5 : 5});
+  const PackedScene packed = packScene(scene);
+  ASSERT_FALSE(packed.lightTree.empty());
+  const auto expectBox = [&](const gpu::LightTreeNode& node, glm::dvec3 lower, glm::dvec3 upper) {
+    const glm::dvec3 center = glm::dvec3(node.center) / double{packed.lightTreeScale} + packed.worldOrigin;
+    const glm::dvec3 extent = glm::dvec3(node.extent) / double{packed.lightTreeScale};
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(center[axis] - extent[axis], lower[axis], 1e-3) << axis;
+      EXPECT_NEAR(center[axis] + extent[axis], upper[axis], 1e-3) << axis;
+    }
+  };
+  expectBox(packed.lightTree[0], {0, 3, -5}, {64, 4, 5});
+  uint32_t child = packed.lightTree[0].child; // the way to the last light, the second triangle of the last instance
+  for (uint32_t trail = packed.lightTrails.back(); (child & gpu::kLightTreeLeaf) == 0; trail >>= 1) {
+    const uint32_t node = (child & gpu::kLightTreeIndexMask) + (trail & 1u);
+    child = packed.lightTree[node].child;
+    if ((child & gpu::kLightTreeLeaf) != 0) expectBox(packed.lightTree[node], {63, 3, 5}, {64, 4, 5});
+  }
+}
+
 TEST(PackScene, LightsAreChosenByTheirPower) {
   Scene scene = sceneOf({square(0), square(1)}, 2);
   scene.materials.resize(2);

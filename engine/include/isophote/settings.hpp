@@ -16,6 +16,9 @@ enum class TriangleLightSampling : uint32_t { Area, SolidAngle };
 /// Both see the whole sphere: uniformly in solid angle, or over its area as Monte Carlo textbooks begin.
 enum class SphereLightSampling : uint32_t { Cone, Area };
 enum class DirectionSampling : uint32_t { Lobes, Uniform, Cosine, Ndf, VisibleNormals, Mixture };
+/// What glass does to shadow rays: it blocks them, and paths find the light behind it; or they cross it unbent
+/// (biased).
+enum class ShadowTransmission : uint32_t { Off, Straight };
 enum class MisHeuristic : uint32_t { Balance, Power };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
@@ -30,6 +33,7 @@ struct EstimatorSettings {
   DirectionSampling directionSampling = DirectionSampling::Lobes;
   MisHeuristic misHeuristic = MisHeuristic::Power;
   SphereLightSampling sphereLightSampling = SphereLightSampling::Cone;
+  ShadowTransmission shadowTransmission = ShadowTransmission::Off;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;
   bool multipleScattering = true; ///< between the facets of rough surfaces; false loses their light

@@ -5,6 +5,9 @@
 
 namespace isophote {
 
+/// Mean angular radius of the sun as seen from the earth, radians: 0.2665 degrees.
+inline constexpr float kSunAngularRadius = 0.00465130f;
+
 struct SkyOptions {
   double elevationDegrees = 45; ///< of the sun above the horizon, [0, 90]
   double azimuthDegrees = 0;    ///< of the sun, from -z clockwise as seen from above (90: +x)
@@ -13,7 +16,7 @@ struct SkyOptions {
 
 struct Sky {
   Environment environment; ///< black below the horizon
-  PunctualLight sun;       ///< directional
+  PunctualLight sun;       ///< directional, a disk of kSunAngularRadius
 };
 
 /// Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight".

@@ -17,6 +17,7 @@ struct PathPoolParts {
   bool receivers = false;
   bool media = false;           ///< of volumes
   bool scatteringMedia = false; ///< their queue
+  bool straight = false;        ///< of shadow rays that cross glass
 };
 
 struct PathPool {
@@ -29,6 +30,7 @@ struct PathPool {
   gpu::Buffer interiors; ///< null where nothing transmits
   gpu::Buffer receivers; ///< null where the choice of a light does not depend on them
   gpu::Buffer media;     ///< MediaState; null without volumes
+  gpu::Buffer straight;  ///< null where glass stops shadow rays
   gpu::Buffer wave;      ///< WaveState
   gpu::Buffer render;    ///< RenderView
   gpu::Buffer filterTable;

@@ -120,7 +120,9 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
                                .interiors = features.has(Feature::kHasTransmission),
                                .receivers = keepsReceivers(),
                                .media = features.has(Feature::kHasVolumes),
-                               .scatteringMedia = kernels->shadeMedium.has_value()});
+                               .scatteringMedia = kernels->shadeMedium.has_value(),
+                               .straight = features.has(Feature::kHasTransmission) &&
+                                           estimator.shadowTransmission == ShadowTransmission::Straight});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
@@ -164,6 +166,7 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .interiors = pool->interiors.address(),
           .receivers = pool->receivers.address(),
           .media = pool->media.address(),
+          .straight = pool->straight.address(),
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,
           .prepare = prepare,

@@ -109,6 +109,7 @@ Sky makeSky(const SkyOptions& options) {
   sky.sun.kind = LightKind::Directional;
   sky.sun.intensity = glm::vec3(sunIlluminance(thetaSun, options.turbidity));
   sky.sun.direction = -toSun;
+  sky.sun.radius = kSunAngularRadius;
   return sky;
 }
 
