@@ -427,8 +427,7 @@ BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, 
   if (kHasDiffuseTransmission && m.behind.share > 0.0) { // both faces are coated alike
     const vec2 albedo = ggxAlbedo(scene, -wiLocal.z, albedoAlpha(m));
     const float leaving = coatTransmission(m, albedo, shares.coatMultiple, lostBetweenFacets(albedo));
-    value.diffuse +=
-        crossingReflectance(m.behind) * (m.diffuse * (shares.coat * leaving / shares.meanCoat) * cosine);
+    value.diffuse += crossingReflectance(m.behind) * (m.diffuse * (shares.coat * leaving / shares.meanCoat) * cosine);
   }
   value.pdfSolidAngle += shares.behindProbability * cosine;
   return value;

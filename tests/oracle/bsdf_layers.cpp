@@ -251,7 +251,7 @@ LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm:
       result.broad = mixed(coat_.amount, 1 - std::max(coatCoupling_->albedo(muO), coatCoupling_->albedo(muI)));
   }
   if (sheenCoupling_) {
-    const Passage sheen = through(*sheenCoupling_, largest(sheen_.color), wo.z, wi.z);
+    const Passage sheen = through(*sheenCoupling_, largest(sheen_.color), wo.z, std::abs(wi.z));
     result.narrow *= sheen.narrow;
     result.broad *= sheen.broad;
   }
@@ -259,10 +259,11 @@ LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm:
 }
 
 glm::dvec3 LayeredSurface::eval(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  if (wo.z <= 0 || wi.z <= 0) return glm::dvec3(0);
+  if (wo.z <= 0 || wi.z == 0) return glm::dvec3(0);
   const Passage through = passage(wo, wi);
   const glm::dvec3 diffuse = evalDiffuse(base_, wo, wi);
   glm::dvec3 result = diffuse * through.broad + (evalBsdf(base_, wo, wi) - diffuse) * through.narrow;
+  if (wi.z < 0) return result; // a thin wall has its layers on both sides
   const double muO = glm::dot(coat_.normal, wo), muI = glm::dot(coat_.normal, wi);
   if (sheenCoupling_) {
     double under = 1;
@@ -284,8 +285,9 @@ glm::dvec3 LayeredSurface::eval(const glm::dvec3& wo, const glm::dvec3& wi) cons
 }
 
 double LayeredSurface::pdf(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  if (wo.z <= 0 || wi.z <= 0) return 0;
+  if (wo.z <= 0 || wi.z == 0) return 0;
   const Probabilities choice = probabilities(wo);
+  if (wi.z < 0) return (1 - choice.coat) * (1 - choice.sheen) * pdfBsdf(base_, wo, wi);
   double result = (1 - choice.coat) * (choice.sheen / (2 * pi) + (1 - choice.sheen) * pdfBsdf(base_, wo, wi));
   const double muO = glm::dot(coat_.normal, wo), muI = glm::dot(coat_.normal, wi);
   if (choice.coat > 0 && coatAlpha(coat_.roughness) > 0 && muO > 0 && muI > 0) {

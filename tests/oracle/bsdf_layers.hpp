@@ -32,7 +32,7 @@ class LayeredSurface {
 public:
   LayeredSurface(const MetallicRoughness& base, const ClearcoatLayer& coat, const SheenLayer& sheen);
 
-  /// f |cos wi| of the continuous lobes.
+  /// f |cos wi| of the continuous lobes; on the other side, wi.z < 0, those of thin walls.
   [[nodiscard]] glm::dvec3 eval(const glm::dvec3& wo, const glm::dvec3& wi) const;
   [[nodiscard]] double pdf(const glm::dvec3& wo, const glm::dvec3& wi) const;
   [[nodiscard]] BsdfSample sample(const glm::dvec3& wo, double uLobe, const glm::dvec2& u) const;

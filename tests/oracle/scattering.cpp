@@ -16,13 +16,19 @@ glm::dmat3 frameAround(glm::dvec3 normal) {
 
 Scattering::Scattering(const SurfacePoint& point, glm::dvec3 wo)
     : ng_(point.ng), frame_(frameAround(point.ns)), woLocal_(glm::transpose(frame_) * wo), lit_(sidesAgree(wo)),
-      lambert_(point.material.metallic == 0 && point.material.specular == 0 && point.material.transmission == 0),
+      lambert_(point.material.metallic == 0 && point.material.specular == 0 && point.material.transmission == 0 &&
+               point.material.diffuseTransmission == 0),
       model_(metallicRoughness(point.material.baseColor, point.material.metallic, point.material.roughness,
                                point.material.ior, point.material.specular, point.material.specularColor)) {
   if (point.material.transmission > 0)
     model_ = withTransmission(model_, point.material.transmission, point.material.ior, point.frontFace,
                               point.material.thinWalled);
   const SurfaceMaterial& material = point.material;
+  if (material.diffuseTransmission > 0) {
+    const bool refracts = material.transmission > 0 && !material.thinWalled;
+    model_ = withDiffuseTransmission(model_, material.diffuseTransmission, material.diffuseTransmissionColor,
+                                     refracts ? model_.innerIor / model_.outerIor : 1);
+  }
   if (material.clearcoat == 0 && material.sheenColor == glm::dvec3(0)) return;
   layered_.emplace(
       model_,

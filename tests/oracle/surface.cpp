@@ -77,6 +77,12 @@ SurfaceMaterial evaluateMaterial(const Attributes& at) {
   result.transmission = source.ior >= 1 ? source.transmission.factor : 0; // index 0 is infinite: nothing gets in
   if (source.transmission.texture.present())
     result.transmission *= at.texture(source.transmission.texture, Encoding::Linear).x;
+  const DiffuseTransmission& diffuse = source.diffuseTransmission;
+  result.diffuseTransmission = diffuse.factor;
+  if (diffuse.texture.present()) result.diffuseTransmission *= at.texture(diffuse.texture, Encoding::Linear).w;
+  result.diffuseTransmissionColor = glm::dvec3(diffuse.color);
+  if (diffuse.colorTexture.present())
+    result.diffuseTransmissionColor *= glm::dvec3(at.texture(diffuse.colorTexture, Encoding::Srgb));
   result.thinWalled = source.volume.thickness == 0;
   result.dispersion = source.dispersion;
   return result;

@@ -22,6 +22,8 @@ struct SurfaceMaterial {
   glm::dvec3 sheenColor{0};
   double sheenRoughness = 0;
   double transmission = 0;
+  double diffuseTransmission = 0;
+  glm::dvec3 diffuseTransmissionColor{1};
   bool thinWalled = true;
   double dispersion = 0; ///< 20 / Abbe number
 };
