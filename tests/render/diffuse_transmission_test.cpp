@@ -27,12 +27,14 @@ const glm::vec3 kBehind(0.2f, 0.8f, 0.4f);
 
 class DiffuseSheet : public testing::TestWithParam<LightSampling> {};
 
-// A chamber whose five black walls shine with radiance 1; the sixth is the sheet. Outside, which is dark, it shows
-// factor times its color behind; inside (1 - factor) of its base color.
+// A chamber whose five black walls shine with radiance 1, one of them of so many quads that lights are chosen by the
+// light tree; the sixth is the sheet. Outside, which is dark, it shows factor times its color behind; inside (1 -
+// factor) of its base color.
 TEST_P(DiffuseSheet, BetweenAFurnaceAndTheDarkPassesItsFactor) {
   Scene scene;
   const uint32_t wall = addMaterial(scene, emitter(glm::vec3(1)));
-  addPrimitive(scene, quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, wall));
+  for (int i = 0; i < 16; ++i)
+    addPrimitive(scene, quad({-1 + 0.5 * (i % 4), -1 + 0.5 * (i / 4), -2}, {0.5, 0, 0}, {0, 0.5, 0}, wall));
   addPrimitive(scene, quad({-1, -1, -2}, {0, 2, 0}, {0, 0, 2}, wall));
   addPrimitive(scene, quad({1, -1, -2}, {0, 0, 2}, {0, 2, 0}, wall));
   addPrimitive(scene, quad({-1, -1, -2}, {0, 0, 2}, {2, 0, 0}, wall));
