@@ -180,7 +180,7 @@ void expectSpecialisedKernelsRenderTheSame(const Scene& scene) {
                            renderImage(scene, leavesCamera(), 24, 16, 8, complete)));
 }
 
-TEST(RenderDiffuseTransmission, SpecialisedKernelsRenderTheSame) {
+TEST(RenderDiffuseTransmission, SpecialisedKernelsRenderTheSameSlow) {
   if (!gpuDevice().isCpu()) GTEST_SKIP() << "bit-identity of specialised kernels is promised for CPU devices only";
   expectSpecialisedKernelsRenderTheSame(leaves());
 }
