@@ -33,8 +33,8 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
-  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
-  const bool glass = transmits(material.bsdf);
+  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasFarSide && wiLocal.z < 0.0)) return;
+  const bool glass = hasGlass(material.bsdf);
   if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
@@ -164,7 +164,7 @@ void main() {
   const uint channel = dispersedChannel(scene, surface, key, slot, kept);
   float eta = 1.0;
   if (kHasVolumes) {
-    eta = etaAt(scene, surface.material, crossing, channel);
+    eta = etaAt(scene, surface.material, surface.frontFace, crossing, channel);
   } else if (kHasSpecular) {
     eta = etaInAir(scene, surface, channel);
   }
@@ -188,7 +188,7 @@ void main() {
     if (kHasClearcoat) setClearcoatNormal(material, scene, surface, wo, frame);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
-      // Lights on the far side of glass are sampled too.
+      // Lights on the far side of what lets light through are sampled too.
       const LightReceiver receiver = LightReceiver(surface.p, transmits(material.bsdf) ? vec3(0.0) : ns);
       if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
       sampleDirectLight(scene, surface, material, frame, woLocal, crossing, receiver, key, pair, slot, path.beta);

@@ -27,6 +27,9 @@ struct BsdfSample {
   float eta;
 };
 
+const bool kHasFarSide = false;
+
+bool hasGlass(const SurfaceBsdf bsdf) { return false; }
 bool transmits(const SurfaceBsdf bsdf) { return false; }
 
 BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
