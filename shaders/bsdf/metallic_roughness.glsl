@@ -6,8 +6,8 @@
 #define ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
 
 #include "bsdf/dielectric_interface.glsl"
+#include "bsdf/facet_distribution.glsl"
 #include "bsdf/fresnel.glsl"
-#include "bsdf/ggx.glsl"
 #include "bsdf/ggx_albedo.glsl"
 #include "bsdf/glass_loss.glsl"
 #include "bsdf/iridescence.glsl"
@@ -356,7 +356,7 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
     const float twoCosine = length(sum); // 2 dot(wo, wm) of unit directions: the same from both sides to the last bit
     const vec3 wm = sum / twoCosine;
     const vec2 width = m.width;
-    const float shape = ggxD(wm, width) * ggxVisibility(woLocal, wiLocal, width) * wiLocal.z;
+    const float shape = facetD(wm, width) * facetVisibility(woLocal, wiLocal, width) * wiLocal.z;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
     value.facets = facet.reflected * shape;
     value.pdfSolidAngle += shares.facetProbability * facet.reflectedShare * pdfVisibleReflection(woLocal, wm, width);
@@ -371,19 +371,19 @@ BaseValue evaluateFacetTransmission(const MetallicRoughness m, const float proba
                                     const vec3 wiLocal) {
   const vec2 width = m.width;
   const vec3 above = vec3(wiLocal.xy, -wiLocal.z);
-  const float visibility = ggxVisibility(woLocal, above, width) * above.z;
+  const float visibility = facetVisibility(woLocal, above, width) * above.z;
   if (m.thinWalled) {
     const vec3 sum = woLocal + above;
     const float twoCosine = length(sum);
     const vec3 wm = sum / twoCosine;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
-    return BaseValue(facet.transmitted * (ggxD(wm, width) * visibility), vec3(0.0),
+    return BaseValue(facet.transmitted * (facetD(wm, width) * visibility), vec3(0.0),
                      probability * (1.0 - facet.reflectedShare) * pdfVisibleReflection(woLocal, wm, width));
   }
   const RefractingFacet refracting = refractingFacet(woLocal, wiLocal, m.eta);
   if (!refracting.valid) return noScattering();
   const FacetScattering facet = scatterAtFacet(m, refracting.cosO);
-  const float shape = 4.0 * ggxD(refracting.wm, width) * visibility * refracting.cosO * refracting.jacobian;
+  const float shape = 4.0 * facetD(refracting.wm, width) * visibility * refracting.cosO * refracting.jacobian;
   const float density = pdfVisibleNormal(woLocal, refracting.wm, width) * m.eta * m.eta * refracting.jacobian;
   return BaseValue(facet.transmitted * shape, vec3(0.0), probability * (1.0 - facet.reflectedShare) * density);
 }
@@ -452,7 +452,7 @@ BsdfSample sampleFacetTransmission(const SceneRef scene, const MetallicRoughness
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
-BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const float uLobe,
+BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, float uLobe,
                       const vec2 u) {
   if (woLocal.z < kMinCosine) return absorbed();
   if (!kHasSpecular) {
@@ -468,7 +468,8 @@ BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec
       return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), refractedEta(m));
     }
   } else {
-    const vec3 wm = isMirror(m) ? vec3(0.0, 0.0, 1.0) : sampleVisibleNormal(woLocal, m.width, u);
+    vec3 wm = vec3(0.0, 0.0, 1.0);
+    if (!isMirror(m)) wm = sampleVisibleNormal(woLocal, m.width, u, shares.facetProbability, uLobe);
     const float cosine = dot(woLocal, wm);
     const FacetScattering facet = scatterAtFacet(m, cosine);
     if (kHasTransmission && uLobe >= shares.facetProbability * facet.reflectedShare) {

@@ -198,7 +198,7 @@ BsdfSample sampleLayered(const SceneRef scene, const SurfaceBsdf bsdf, const Lay
                          float uLobe, const vec2 u) {
   BsdfSample drawn = absorbed();
   if (uLobe < at.coatProbability) {
-    drawn.wiLocal = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u));
+    drawn.wiLocal = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u, uLobe / at.coatProbability));
     if (drawn.wiLocal.z < kMinCosine) return drawn;
     if (!coatIsMirror(bsdf.coat)) return weighLayered(scene, bsdf, at, woLocal, drawn);
     drawn.weight = vec3(bsdf.coat.amount * coatReflectance(at.woCoat.z) / at.coatProbability);

@@ -21,6 +21,7 @@ ISOPHOTE_CONST float kMinCoatTransmission = 1e-3f;
 ISOPHOTE_CONST uint kGgxAlbedoMuCount = 64u;
 ISOPHOTE_CONST uint kGgxAlbedoRoughnessCount = 64u;
 ISOPHOTE_CONST uint kGgxAlbedoMeans = kGgxAlbedoMuCount * kGgxAlbedoRoughnessCount;
+ISOPHOTE_CONST uint kGgxAlbedoSize = kGgxAlbedoMeans + kGgxAlbedoRoughnessCount;
 
 // Normal reflectance of the clearcoat, index 1.5 (KHR_materials_clearcoat).
 ISOPHOTE_CONST float kClearcoatF0 = 0.04f;

@@ -20,7 +20,7 @@ public:
     static std::map<float, std::vector<glm::vec2>> tables;
     for (const float ior : iors) {
       const auto [entry, isNew] = tables.try_emplace(ior);
-      if (isNew) entry->second = glassLossTable(double(ior));
+      if (isNew) entry->second = glassLossTable({.ior = ior});
       first_[ior] = static_cast<uint32_t>(losses.size());
       losses.insert(losses.end(), entry->second.begin(), entry->second.end());
     }
