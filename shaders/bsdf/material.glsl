@@ -36,7 +36,7 @@ float etaInAir(const SceneRef scene, const SurfaceHit surface, const uint channe
 // What lies over the base: of the clearcoat factor R, roughness G; of the sheen color RGB, roughness A.
 void addLayers(const SceneRef scene, const SurfaceHit surface, const MaterialRecord record, const Geometry geometry,
                inout SurfaceBsdf bsdf) {
-  bsdf.insideSolid = kHasTransmission && bsdf.base.glass > 0.0 && !bsdf.base.thinWalled && !surface.frontFace;
+  bsdf.insideSolid = transmits(bsdf) && !bsdf.base.thinWalled && !surface.frontFace;
   bsdf.coat = Clearcoat(0.0, 0.0, vec3(0.0, 0.0, 1.0));
   if (kHasClearcoat && record.clearcoat > 0.0) {
     bsdf.coat.amount = record.clearcoat * materialTexel(scene, surface, geometry, record.clearcoatSlot).r;
@@ -64,9 +64,20 @@ Iridescence iridescenceAt(const SceneRef scene, const SurfaceHit surface, const 
                      mix(record.iridescenceThicknessMinimum, record.iridescenceThicknessMaximum, thickness));
 }
 
+// KHR_materials_diffuse_transmission: factor A, color RGB. Light meets another index behind the surface only where the
+// material can refract.
+DiffuseTransmission diffuseTransmissionAt(const SceneRef scene, const SurfaceHit surface, const MaterialRecord record,
+                                          const Geometry geometry, const float eta) {
+  const vec3 color = materialTexel(scene, surface, geometry, record.diffuseTransmissionColorSlot).rgb;
+  const bool refracts = kHasTransmission && record.transmission > 0.0 && record.thickness > 0.0 && eta > 0.0;
+  return DiffuseTransmission(record.diffuseTransmission *
+                                 materialTexel(scene, surface, geometry, record.diffuseTransmissionSlot).a,
+                             clamp(record.diffuseTransmissionColor * color, 0.0, 1.0), refracts ? eta : 1.0);
+}
+
 /// Reads the material at a hit. Channels as in glTF 2.0 section 3.9 and KHR_materials_specular: roughness G, metallic
-/// B, specular A, transmission R. Base color above 1, which float vertex colors can give, is cut to 1 where it is a
-/// reflectance.
+/// B, specular A, transmission R, diffuse transmission A. Base color above 1, which float vertex colors can give, is
+/// cut to 1 where it is a reflectance.
 ///
 /// @param eta      index behind the surface over the index in front of it, as etaInAir has it in air
 /// @param channel  of the index of dispersive glass, 1 for its nominal one
@@ -111,6 +122,10 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const
     }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));
+  }
+  if (kHasDiffuseTransmission && record.diffuseTransmission > 0.0) {
+    setDiffuseTransmission(material.bsdf.base, diffuseTransmissionAt(scene, surface, record, geometry, eta),
+                           record.thickness == 0.0);
   }
   addLayers(scene, surface, record, geometry, material.bsdf);
   return material;

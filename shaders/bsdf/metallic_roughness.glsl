@@ -6,7 +6,9 @@
 #define ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
 
 #include "bsdf/dielectric_interface.glsl"
+#include "bsdf/diffuse_transmission.glsl"
 #include "bsdf/facet_distribution.glsl"
+#include "bsdf/fresnel.glsl"
 #include "bsdf/fresnel.glsl"
 #include "bsdf/ggx_albedo.glsl"
 #include "bsdf/glass_loss.glsl"
@@ -38,6 +40,7 @@ struct MetallicRoughness {
   Iridescence film;
   vec3 conductorN; // complex index of the metal; 0: it reflects its base color
   vec3 conductorK;
+  DiffuseTransmission behind; // the part of the diffuse lobe on the other side
 };
 
 /// Of the base's continuous lobes, f |cos wi| in two parts, which the layers above pass differently.
@@ -92,7 +95,14 @@ MetallicRoughness metallicRoughness(const vec3 baseColor, const float metallic, 
   m.film = Iridescence(0.0, 1.0, 0.0);
   m.conductorN = vec3(0.0);
   m.conductorK = vec3(0.0);
+  m.behind = kNoDiffuseTransmission;
   return m;
+}
+
+/// Lets a part of the diffuse lobe out on the other side.
+void setDiffuseTransmission(inout MetallicRoughness m, const DiffuseTransmission behind, const bool thinWalled) {
+  m.behind = behind;
+  m.thinWalled = thinWalled;
 }
 
 /// Names the tables that restore what rough glass loses.
@@ -133,6 +143,9 @@ void setTransmission(inout MetallicRoughness m, const float transmission, const 
   m.eta = eta;
   m.thinWalled = thinWalled;
 }
+
+// Whether there may be anything on the other side of a surface.
+const bool kHasFarSide = kHasTransmission || kHasDiffuseTransmission;
 
 bool isConductor(const MetallicRoughness m) { return kHasConductor && m.conductorN.x > 0.0; }
 
@@ -318,13 +331,16 @@ BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const flo
 
   float facets = luminance(m.f0 * shares.albedo.x + m.f90 * shares.albedo.y);
   const float below = luminance(m.baseColor) * shares.coat;
-  float above = m.diffuse * below + luminance(shares.multiple) * shares.lost;
+  float above = m.diffuse * (1.0 - crossingShare(m.behind)) * below + luminance(shares.multiple) * shares.lost;
   float behind = 0.0;
+  if (kHasDiffuseTransmission) {
+    behind = m.diffuse * crossingShare(m.behind) * (luminance(m.behind.color) * shares.coat);
+  }
   if (kHasTransmission && m.glass > 0.0) {
     shares.glass = glassMultiple(scene, m, muO, shares);
     facets += m.glass * (luminance(m.glassF0 * shares.albedo.x + m.dielectricF90 * shares.albedo.y) + below);
     above += m.glass * (1.0 - shares.glass.transmitted) * shares.glass.lost;
-    behind = m.glass * luminance(m.baseColor) * shares.glass.transmitted * shares.glass.lost;
+    behind += m.glass * luminance(m.baseColor) * shares.glass.transmitted * shares.glass.lost;
   }
   const float sum = facets + above + behind;
   shares.facetProbability = facets > 0.0 ? facets / sum : 0.0;
@@ -343,7 +359,8 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
   const float cosine = kInvPi * wiLocal.z;
   BaseValue value;
   value.facets = vec3(0.0);
-  value.diffuse = m.baseColor * (m.diffuse * (shares.coat * entering / shares.meanCoat) * cosine) +
+  const float staying = m.diffuse * (1.0 - crossingShare(m.behind));
+  value.diffuse = m.baseColor * (staying * (shares.coat * entering / shares.meanCoat) * cosine) +
                   shares.multiple * (shares.lost * lost / shares.meanLost * cosine);
   if (kHasTransmission && m.glass > 0.0) {
     const GlassMultiple glass = shares.glass;
@@ -391,32 +408,58 @@ BaseValue evaluateFacetTransmission(const MetallicRoughness m, const float proba
 // Index behind over in front, of directions.
 float refractedEta(const MetallicRoughness m) { return m.thinWalled ? 1.0 : m.eta; }
 
+// The same of the cosine lobe on the other side; of glass both are equal.
+float broadEta(const MetallicRoughness m) {
+  return kHasDiffuseTransmission && m.behind.share > 0.0 ? m.behind.eta : refractedEta(m);
+}
+
 // The lobes on the other side.
 BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
                                const vec3 woLocal, const vec3 wiLocal) {
-  if (m.glass == 0.0 || transmitsDelta(m)) return noScattering();
-  BaseValue value = evaluateFacetTransmission(m, shares.facetProbability, woLocal, wiLocal);
-  const GlassMultiple glass = shares.glass;
-  const float eta = refractedEta(m);
+  BaseValue value = noScattering();
   const float cosine = -kInvPi * wiLocal.z;
-  const float continued = glass.lost * glassLossAt(scene, m, -wiLocal.z, true) / (glass.meanBehind * eta * eta);
-  value.diffuse = m.baseColor * (m.glass * glass.transmitted * continued * cosine);
+  if (kHasTransmission && m.glass > 0.0 && !transmitsDelta(m)) {
+    value = evaluateFacetTransmission(m, shares.facetProbability, woLocal, wiLocal);
+    const GlassMultiple glass = shares.glass;
+    const float eta = refractedEta(m);
+    const float continued = glass.lost * glassLossAt(scene, m, -wiLocal.z, true) / (glass.meanBehind * eta * eta);
+    value.diffuse = m.baseColor * (m.glass * glass.transmitted * continued * cosine);
+  }
+  if (kHasDiffuseTransmission && m.behind.share > 0.0) { // both faces are coated alike
+    const vec2 albedo = ggxAlbedo(scene, -wiLocal.z, albedoAlpha(m));
+    const float leaving = coatTransmission(m, albedo, shares.coatMultiple, lostBetweenFacets(albedo));
+    value.diffuse +=
+        crossingReflectance(m.behind) * (m.diffuse * (shares.coat * leaving / shares.meanCoat) * cosine);
+  }
   value.pdfSolidAngle += shares.behindProbability * cosine;
   return value;
+}
+
+// Of Lambert lobes alone: the probability of sampling the one on the other side.
+float lambertBehindProbability(const MetallicRoughness m) {
+  if (!kHasDiffuseTransmission) return 0.0;
+  const float behind = m.diffuse * crossingShare(m.behind) * luminance(m.behind.color);
+  const float above = m.diffuse * (1.0 - crossingShare(m.behind)) * luminance(m.baseColor);
+  return behind > 0.0 ? behind / (above + behind) : 0.0;
 }
 
 /// Returns f |cos wi| and the sampling density of the continuous lobes of both sides; zeros where wo is below the
 /// surface.
 BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
-  const bool transmitted = kHasTransmission && wiLocal.z < 0.0;
+  const bool transmitted = kHasFarSide && wiLocal.z < 0.0;
   if (min(woLocal.z, transmitted ? -wiLocal.z : wiLocal.z) < kMinCosine) return noScattering();
   if (kHasSpecular) {
     const BaseShares shares = baseShares(scene, m, woLocal.z);
     if (transmitted) return evaluateTransmission(scene, m, shares, woLocal, wiLocal);
     return evaluateReflection(scene, m, shares, woLocal, wiLocal);
   }
-  const float density = kInvPi * wiLocal.z;
-  return BaseValue(vec3(0.0), m.baseColor * (m.diffuse * density), density);
+  const float density = kInvPi * abs(wiLocal.z);
+  const float behind = lambertBehindProbability(m);
+  if (transmitted) {
+    return BaseValue(vec3(0.0), crossingReflectance(m.behind) * (m.diffuse * density), behind * density);
+  }
+  const float staying = m.diffuse * (1.0 - crossingShare(m.behind));
+  return BaseValue(vec3(0.0), m.baseColor * (staying * density), (1.0 - behind) * density);
 }
 
 BsdfSample absorbed() { return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0); }
@@ -456,16 +499,18 @@ BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec
                       const vec2 u) {
   if (woLocal.z < kMinCosine) return absorbed();
   if (!kHasSpecular) {
-    const vec3 wi = sampleCosineHemisphere(u);
-    return finishSample(wi, evaluateBase(scene, m, woLocal, wi), 1.0);
+    vec3 wi = sampleCosineHemisphere(u);
+    const bool crosses = uLobe < lambertBehindProbability(m);
+    if (crosses) wi.z = -wi.z;
+    return finishSample(wi, evaluateBase(scene, m, woLocal, wi), crosses ? m.behind.eta : 1.0);
   }
   const BaseShares shares = baseShares(scene, m, woLocal.z);
   vec3 wi;
   if (uLobe >= shares.facetProbability) {
     wi = sampleCosineHemisphere(u);
-    if (kHasTransmission && uLobe < shares.facetProbability + shares.behindProbability) {
+    if (kHasFarSide && uLobe < shares.facetProbability + shares.behindProbability) {
       wi.z = -wi.z;
-      return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), refractedEta(m));
+      return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), broadEta(m));
     }
   } else {
     vec3 wm = vec3(0.0, 0.0, 1.0);

@@ -17,7 +17,9 @@ struct SurfaceBsdf {
 };
 
 /// Whether light passes to the other side.
-bool transmits(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
+bool transmits(const SurfaceBsdf bsdf) {
+  return (kHasTransmission && bsdf.base.glass > 0.0) || (kHasDiffuseTransmission && bsdf.base.behind.share > 0.0);
+}
 
 const bool kHasLayers = kHasClearcoat || kHasSheen;
 
@@ -100,7 +102,7 @@ float passageOutside(const SceneRef scene, const SurfaceBsdf bsdf, const LayersA
 // transmission passes them as reflection does.
 LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
   LayerPassage passage = LayerPassage(1.0, 1.0);
-  if (kHasTransmission && wiLocal.z < 0.0 && !bsdf.base.thinWalled) {
+  if (kHasFarSide && wiLocal.z < 0.0 && !bsdf.base.thinWalled) {
     const float passed = passageOutside(scene, bsdf, at, wiLocal);
     return LayerPassage(passed, passed);
   }

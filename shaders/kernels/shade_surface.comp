@@ -32,7 +32,7 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
-  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
+  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasFarSide && wiLocal.z < 0.0)) return;
   const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
@@ -124,8 +124,10 @@ MediumCrossing crossSurface(const SceneRef scene, const SurfaceHit surface, cons
 float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing, const uint channel) {
   const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], channel);
   if (ior < 1.0) return ior;
-  return isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing, channel)
-                                                   : ior / mediumIor(scene, crossing.before, channel);
+  const bool boundary = isVolumeBoundary(scene, surface.material);
+  if (boundary && refracts(scene, surface.material)) return etaAcross(scene, crossing, channel);
+  const uint outside = boundary && !surface.frontFace ? crossing.beyond : crossing.before;
+  return ior / mediumIor(scene, outside, channel);
 }
 
 // Sends the path straight on, where the surface is a boundary that does nothing.
@@ -188,7 +190,7 @@ void main() {
     }
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
-      // Lights on the far side of glass are sampled too.
+      // Lights on the far side of what lets light through are sampled too.
       const LightReceiver receiver = LightReceiver(surface.p, transmits(material.bsdf) ? vec3(0.0) : ns);
       if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
       sampleDirectLight(scene, surface, material, frame, woLocal, crossing, receiver, key, pair, slot, path.beta);

@@ -90,10 +90,16 @@ MediumCrossing crossBoundary(const SceneRef scene, const MediumStack stack, cons
   return crossing;
 }
 
-/// Index of refraction of a material's medium; 1 of none, and of those that nothing enters (index 0, for infinity).
+/// Whether light can enter a material by refraction. What it enters by diffuse transmission alone has no index.
+bool refracts(const SceneRef scene, const uint material) {
+  return !kHasDiffuseTransmission || MaterialRef(scene.view.materials).items[material].transmission > 0.0;
+}
+
+/// Index of refraction of a material's medium; 1 of none, of those that nothing enters (index 0, for infinity), and
+/// where nothing refracts.
 float mediumIor(const SceneRef scene, const uint material, const uint channel) {
-  return material == kInvalidIndex ? 1.0
-                                   : max(materialIor(MaterialRef(scene.view.materials).items[material], channel), 1.0);
+  if (material == kInvalidIndex || !refracts(scene, material)) return 1.0;
+  return max(materialIor(MaterialRef(scene.view.materials).items[material], channel), 1.0);
 }
 
 /// Index beyond a boundary over the index before it.

@@ -15,6 +15,8 @@ struct BsdfCase {
   float transmission; // 0: not glass
   uint backFace;      // wo is in the glass
   uint thinWalled;
+  float diffuseTransmission;
+  vec3 diffuseTransmissionColor;
   uint glassLoss; // set by probeBsdf
   vec3 wo;
   vec3 wi;

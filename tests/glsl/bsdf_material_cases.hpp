@@ -51,6 +51,15 @@ inline gpu::BsdfCase glass(float roughness, Side side, glm::vec3 baseColor = glm
   return c;
 }
 
+/// Paper: light leaves on both sides of the diffuse lobe.
+inline gpu::BsdfCase leaf(float roughness, float share, glm::vec3 color = {0.2f, 0.8f, 0.4f}) {
+  gpu::BsdfCase c = bsdfMaterial({0.7f, 0.5f, 0.3f}, 0, roughness);
+  c.thinWalled = 1;
+  c.diffuseTransmission = share;
+  c.diffuseTransmissionColor = color;
+  return c;
+}
+
 inline glm::vec3 directionOf(double cosine, double phi) {
   const double sine = std::sqrt(1 - cosine * cosine);
   return {float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(cosine)};
@@ -68,9 +77,13 @@ inline void drawUniforms(gpu::BsdfCase& c, std::mt19937& generator) {
 inline oracle::MetallicRoughness oracleMaterial(const gpu::BsdfCase& c) {
   const auto opaque = oracle::metallicRoughness(glm::dvec3(c.baseColor), double(c.metallic), double(c.roughness),
                                                 double(c.ior), double(c.specular), glm::dvec3(c.specularColor));
-  return c.transmission == 0 ? opaque
-                             : oracle::withTransmission(opaque, double(c.transmission), double(c.ior), c.backFace == 0,
-                                                        c.thinWalled != 0);
+  const auto coated = c.transmission == 0 ? opaque
+                                          : oracle::withTransmission(opaque, double(c.transmission), double(c.ior),
+                                                                     c.backFace == 0, c.thinWalled != 0);
+  if (c.diffuseTransmission == 0) return coated;
+  const bool refracts = c.transmission > 0 && c.thinWalled == 0;
+  return oracle::withDiffuseTransmission(coated, double(c.diffuseTransmission), glm::dvec3(c.diffuseTransmissionColor),
+                                         refracts ? coated.innerIor / coated.outerIor : 1);
 }
 
 inline std::string describe(const gpu::BsdfCase& c) {

@@ -15,6 +15,12 @@ BsdfResult probe(const BsdfCase c) {
     setTransmission(m.base, c.transmission, relativeIor(c.ior, thinWalled || c.backFace == 0u), thinWalled);
     setGlassLoss(m.base, c.glassLoss, c.backFace == 0u);
   }
+  if (c.diffuseTransmission > 0.0) {
+    const bool refracts = c.transmission > 0.0 && !thinWalled;
+    const float eta = refracts ? relativeIor(c.ior, c.backFace == 0u) : 1.0;
+    setDiffuseTransmission(m.base, DiffuseTransmission(c.diffuseTransmission, c.diffuseTransmissionColor, eta),
+                           thinWalled);
+  }
   BsdfResult result;
   result.fCos = evalBsdf(scene, m, c.wo, c.wi);
   result.pdf = pdfBsdf(scene, m, c.wo, c.wi);

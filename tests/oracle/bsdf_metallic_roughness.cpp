@@ -49,12 +49,25 @@ glm::dvec3 metalReflectance(const MetallicRoughness& m, double cosine) {
 
 double glassShare(const MetallicRoughness& m) { return m.transmission * (1 - m.metallic); }
 
-glm::dvec3 diffuse(const MetallicRoughness& m, double muO, double muI) {
+// Share of the diffuse light from wo's side that crosses, and the factor by which radiance from the other side is seen:
+// of the light from there the share (n_o / n_i)^2 / max(1, (n_o / n_i)^2) of m.diffuseTransmission crosses.
+double diffuselyCrossing(const MetallicRoughness& m) {
+  return m.diffuseEta >= 1 ? m.diffuseTransmission : m.diffuseTransmission * m.diffuseEta * m.diffuseEta;
+}
+
+double diffuselySeenThrough(const MetallicRoughness& m) {
+  return m.diffuseEta <= 1 ? m.diffuseTransmission : m.diffuseTransmission / (m.diffuseEta * m.diffuseEta);
+}
+
+// Both cosines to the normals of the sides where they are.
+glm::dvec3 diffuse(const MetallicRoughness& m, double muO, double muI, bool behind) {
   const double alpha = modelAlpha(m);
   const double transmittedO = 1 - coatAlbedo(m, directionalAlbedo(muO, alpha));
   const double transmittedI = 1 - coatAlbedo(m, directionalAlbedo(muI, alpha));
   const double mean = std::max(1 - coatAlbedo(m, meanAlbedo(alpha)), double(gpu::kMinCoatTransmission));
-  return m.baseColor * ((1 - m.metallic) * (1 - m.transmission) / pi * transmittedO * transmittedI / mean);
+  const glm::dvec3 color =
+      behind ? m.diffuseTransmissionColor * diffuselySeenThrough(m) : m.baseColor * (1 - diffuselyCrossing(m));
+  return color * ((1 - m.metallic) * (1 - m.transmission) / pi * transmittedO * transmittedI / mean);
 }
 
 glm::dvec3 opaqueMultiple(const MetallicRoughness& m) {
@@ -109,10 +122,13 @@ Choice lobeChoice(const MetallicRoughness& m, double muO) {
   const double below = luminance(m.baseColor) * (1 - coatAlbedo(m, albedo));
   const double facets = luminance(m.f0 * albedo.x + m.f90 * albedo.y) +
                         glassShare(m) * (luminance(m.glassF0 * albedo.x + m.dielectricF90 * albedo.y) + below);
-  const double above = (1 - m.metallic) * (1 - m.transmission) * below +
+  const double diffuseShare = (1 - m.metallic) * (1 - m.transmission);
+  const double above = diffuseShare * (1 - diffuselyCrossing(m)) * below +
                        luminance(opaqueMultiple(m)) * lost(m, albedo) +
                        glassShare(m) * (1 - glass.transmitted) * glass.lossInFront;
-  const double behind = glassShare(m) * luminance(m.baseColor) * glass.transmitted * glass.lossInFront;
+  const double behind =
+      glassShare(m) * luminance(m.baseColor) * glass.transmitted * glass.lossInFront +
+      diffuseShare * diffuselyCrossing(m) * luminance(m.diffuseTransmissionColor) * (1 - coatAlbedo(m, albedo));
   const double sum = facets + above + behind;
   return sum > 0 ? Choice{facets / sum, behind / sum} : Choice{};
 }
@@ -244,6 +260,13 @@ glm::dvec3 glassReflectance(const MetallicRoughness& m, double cosine) {
   return glm::mix(bare, filmReflectance(m.film, outside, m.glassF0), m.film.amount);
 }
 
+MetallicRoughness withDiffuseTransmission(MetallicRoughness m, double share, const glm::dvec3& color, double eta) {
+  m.diffuseTransmission = share;
+  m.diffuseTransmissionColor = color;
+  m.diffuseEta = eta;
+  return m;
+}
+
 MetallicRoughness withAnisotropy(MetallicRoughness m, double strength) {
   const double wide = std::lerp(m.alpha, 1.0, strength * strength);
   const double limit = double(gpu::kMirrorAlpha);
@@ -286,11 +309,12 @@ bool transmitsDelta(const MetallicRoughness& m) {
 glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
   if (woLocal.z <= 0 || wiLocal.z == 0) return glm::dvec3(0);
   if (wiLocal.z < 0) {
-    if (m.transmission == 0 || transmitsDelta(m)) return glm::dvec3(0);
-    return (transmittedByFacets(m, woLocal, wiLocal).f + multipleScattering(m, woLocal.z, -wiLocal.z, true)) *
-           -wiLocal.z;
+    glm::dvec3 f = diffuse(m, woLocal.z, -wiLocal.z, true);
+    if (m.transmission > 0 && !transmitsDelta(m))
+      f += transmittedByFacets(m, woLocal, wiLocal).f + multipleScattering(m, woLocal.z, -wiLocal.z, true);
+    return f * -wiLocal.z;
   }
-  glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z) + multipleScattering(m, woLocal.z, wiLocal.z, false);
+  glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z, false) + multipleScattering(m, woLocal.z, wiLocal.z, false);
   if (!isMirror(m)) {
     const glm::dvec3 wm = glm::normalize(woLocal + wiLocal);
     const glm::dvec2 alpha(m.width);
@@ -301,8 +325,10 @@ glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const
 }
 
 glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
-  if (woLocal.z <= 0 || wiLocal.z <= 0) return glm::dvec3(0);
-  return (diffuse(m, woLocal.z, wiLocal.z) + multipleScattering(m, woLocal.z, wiLocal.z, false)) * wiLocal.z;
+  if (woLocal.z <= 0 || wiLocal.z == 0) return glm::dvec3(0);
+  const bool behind = wiLocal.z < 0;
+  const double muI = std::abs(wiLocal.z);
+  return (diffuse(m, woLocal.z, muI, behind) + multipleScattering(m, woLocal.z, muI, behind)) * muI;
 }
 
 double meanCoatTransmission(const MetallicRoughness& m) {
@@ -313,8 +339,9 @@ double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm:
   if (woLocal.z <= 0 || wiLocal.z == 0) return 0;
   const auto [facets, behind] = lobeChoice(m, woLocal.z);
   if (wiLocal.z < 0) {
-    if (m.transmission == 0 || transmitsDelta(m)) return 0;
-    return facets * transmittedByFacets(m, woLocal, wiLocal).pdf + behind * -wiLocal.z / pi;
+    double pdf = behind * -wiLocal.z / pi;
+    if (m.transmission > 0 && !transmitsDelta(m)) pdf += facets * transmittedByFacets(m, woLocal, wiLocal).pdf;
+    return pdf;
   }
   double pdf = (1 - facets - behind) * wiLocal.z / pi;
   if (!isMirror(m)) {
@@ -345,7 +372,11 @@ BsdfSample sampleBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, dou
     result.wiLocal = {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1 - u.x)};
     if (uLobe < facets + behind) {
       result.wiLocal.z = -result.wiLocal.z;
-      if (!m.thinWalled) result.eta = m.innerIor / m.outerIor;
+      if (m.diffuseTransmission > 0) {
+        result.eta = m.diffuseEta;
+      } else if (!m.thinWalled) {
+        result.eta = m.innerIor / m.outerIor;
+      }
     }
   }
   if (result.wiLocal.z <= 0 && uLobe < facets) return result;

@@ -25,6 +25,9 @@ struct MetallicRoughness {
   ThinFilm film;
   glm::dvec3 conductorN{0}; ///< of the metal; 0: it reflects its base color
   glm::dvec3 conductorK{0};
+  double diffuseTransmission = 0;         ///< share of the diffuse light that crosses the surface
+  glm::dvec3 diffuseTransmissionColor{1}; ///< of what crosses
+  double diffuseEta = 1;                  ///< index behind over index in front, of the light that crosses diffusely
   bool multipleScattering = true;
 };
 
@@ -44,6 +47,13 @@ struct BsdfSample {
 [[nodiscard]] MetallicRoughness withTransmission(MetallicRoughness m, double transmission, double ior, bool frontFace,
                                                  bool thinWalled);
 
+/// The same with a Lambert lobe on both sides: mix(diffuse_brdf, diffuse_btdf, share) below the coat, as
+/// KHR_materials_diffuse_transmission has it. Where the index behind is not the one in front, only the share (rarer /
+/// denser)^2 of the light from the denser side crosses, which makes both directions reciprocal.
+/// @param eta index behind over index in front
+[[nodiscard]] MetallicRoughness withDiffuseTransmission(MetallicRoughness m, double share, const glm::dvec3& color,
+                                                        double eta);
+
 [[nodiscard]] MetallicRoughness withAnisotropy(MetallicRoughness m, double strength);
 [[nodiscard]] MetallicRoughness withConductor(MetallicRoughness m, const glm::dvec3& n, const glm::dvec3& k);
 [[nodiscard]] MetallicRoughness withFilm(MetallicRoughness m, const ThinFilm& film);
@@ -60,7 +70,7 @@ struct BsdfSample {
 /// f |cos wi| of the continuous lobes for radiance, 0 unless wo lies above the surface; wi.z < 0 is transmission.
 [[nodiscard]] glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 
-/// The part of it, on wo's side, of the lobes that follow the cosine: the diffuse one and multiple scattering.
+/// The part of it of the lobes that follow the cosine: the diffuse one and multiple scattering.
 [[nodiscard]] glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 
 /// Mean share of light that passes the dielectric coat over the diffuse lobe.

@@ -55,6 +55,8 @@ void addMaterial(const Scene& scene, const Material& material, FeatureSet& featu
     const MediumCoefficients medium = mediumCoefficients(material.volume);
     if (medium.extinction * medium.albedo != glm::vec3(0)) features.add(Feature::kHasScatteringMedia);
   }
+  if (material.diffuseTransmission.factor > 0 && (material.metallic < 1 || material.metallicRoughnessTexture.present()))
+    features.add(Feature::kHasDiffuseTransmission);
   if (material.clearcoat.factor > 0) features.add(Feature::kHasClearcoat);
   if (material.sheen.color != glm::vec3(0)) features.add(Feature::kHasSheen);
   // Factors multiply textures of at most 1, so a factor of 0 rules the lobe out. A dielectric with ior 1 keeps its
