@@ -55,7 +55,7 @@ LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woL
   LayersAtWo at;
   at.base = LayerBase(1.0, 0.0, 0.0, 1.0);
   if (kHasSpecular) {
-    const float mean = baseShares(scene, bsdf.base, woLocal.z).meanCoat;
+    const float mean = baseShares(scene, bsdf.base, woLocal).meanCoat;
     at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90, mean);
   }
   float reachable = 1.0; // share of the light that comes down to the layer at hand

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -66,6 +67,11 @@ void forVisibleNormals(const Facets& facets, const glm::dvec3& wo, const NormalQ
   const glm::dvec2 alpha = facets.alpha();
   const glm::dvec3 view = glm::normalize(glm::dvec3(alpha * glm::dvec2(wo), wo.z));
   const double turn = size.halfTurn ? std::numbers::pi : 2 * std::numbers::pi;
+  std::vector<glm::dvec2> directions;
+  for (int j = 0; j < size.azimuths; ++j) {
+    const double phi = turn * (j + 0.5) / size.azimuths;
+    directions.emplace_back(std::cos(phi), std::sin(phi));
+  }
   const double scale = 2 * (wo.z + facets.ggxProjectedLength(wo)) / (double(size.heights) * size.azimuths);
   for (int i = 0; i < size.heights; ++i) {
     // Quadratic in t: nodes crowd at flat normals, where wi sinks below the horizon.
@@ -73,9 +79,8 @@ void forVisibleNormals(const Facets& facets, const glm::dvec3& wo, const NormalQ
     const double height = t * t * (1 + view.z); // above the cap's rim at z = -view.z
     const double z = height - view.z;
     const double radius = std::sqrt(std::max(0.0, 1 - z * z));
-    for (int j = 0; j < size.azimuths; ++j) {
-      const double phi = turn * (j + 0.5) / size.azimuths;
-      const glm::dvec2 unit = radius * glm::dvec2(std::cos(phi), std::sin(phi)) + glm::dvec2(view);
+    for (const glm::dvec2& direction : directions) {
+      const glm::dvec2 unit = radius * direction + glm::dvec2(view);
       const glm::dvec3 wm = glm::normalize(glm::dvec3(alpha * unit, height));
       const double weight = scale * t * facets.ratioToGgx(glm::dot(unit, unit) / (height * height));
       visit(wm, std::min(glm::dot(wo, wm), 1.0), weight);

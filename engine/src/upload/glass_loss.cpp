@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <future>
+#include <tuple>
 
 #include "shared/bsdf_constants.h"
 #include "upload/cosine_mean.hpp"
 #include "upload/dielectric.hpp"
+#include "upload/memo.hpp"
 
 namespace isophote {
 namespace {
@@ -50,7 +52,8 @@ std::vector<glm::vec2> lossFrom(double eta, const GlassSurface& glass, const Gla
   for (uint32_t r = 0; r < gpu::kGlassLossRoughnessCount; ++r) {
     constexpr double kSpacing = 1.0 / (gpu::kGlassLossRoughnessCount - 1);
     const double roughness = r * kSpacing;
-    const bool skipped = r == 0 || roughness < glass.roughness.x - kSpacing || roughness > glass.roughness.y + kSpacing;
+    const bool skipped = r == 0 || roughness < double(glass.roughness.x) - kSpacing ||
+                         roughness > double(glass.roughness.y) + kSpacing;
     const Facets facets(model.facets, glm::dvec2(std::max(square(roughness), double(gpu::kMirrorAlpha))));
     std::array<glm::dvec2, gpu::kGlassLossMuCount> row;
     for (uint32_t c = 0; c < gpu::kGlassLossMuCount; ++c) {
@@ -64,15 +67,21 @@ std::vector<glm::vec2> lossFrom(double eta, const GlassSurface& glass, const Gla
   return values;
 }
 
-} // namespace
-
-std::vector<glm::vec2> glassLossTable(const GlassSurface& glass, const GlassModel& model) {
+std::vector<glm::vec2> computeTable(const GlassSurface& glass, const GlassModel& model) {
   const double index = std::clamp(double(glass.ior), 1.0, 1024.0);
   auto inside = std::async(std::launch::async, [&] { return lossFrom(1 / index, glass, model); });
   std::vector<glm::vec2> table = lossFrom(index, glass, model);
   const std::vector<glm::vec2> half = inside.get();
   table.insert(table.end(), half.begin(), half.end());
   return table;
+}
+
+} // namespace
+
+const std::vector<glm::vec2>& glassLossTable(const GlassSurface& glass, const GlassModel& model) {
+  static Memo<std::tuple<float, float, float, FacetModel, bool>, std::vector<glm::vec2>> tables;
+  return tables.get({glass.ior, glass.roughness.x, glass.roughness.y, model.facets, model.bySchlick},
+                    [&] { return computeTable(glass, model); });
 }
 
 } // namespace isophote

@@ -67,6 +67,7 @@ private:
     record.anisotropyStrength = anisotropy.strength;
     record.anisotropyRotation = anisotropy.rotation;
     record.anisotropySlot = slot(anisotropy.texture, false);
+    record.anisotropicAlbedo = anisotropicAlbedo(material);
     const Iridescence& iridescence = material.iridescence;
     record.iridescence = iridescence.factor;
     record.iridescenceIor = iridescence.ior;
@@ -117,6 +118,22 @@ private:
       }
     }
     return entry->second;
+  }
+
+  // Where the table of its anisotropic facets begins.
+  uint32_t anisotropicAlbedo(const Material& material) {
+    if (material.anisotropy.strength <= 0) return gpu::kInvalidIndex;
+    const auto range = [](float largest, bool textured) { return glm::vec2(textured ? 0 : largest, largest); };
+    const AnisotropicSurface surface{
+        range(material.roughness, material.metallicRoughnessTexture.present()),
+        range(material.anisotropy.strength, material.anisotropy.texture.present())};
+    uint32_t first = 0;
+    for (const AnisotropicSurface& known : packed_.tables.anisotropic) {
+      if (known == surface) return first;
+      first += anisotropicAlbedoSize(known);
+    }
+    packed_.tables.anisotropic.push_back(surface);
+    return first;
   }
 
   // Where the table of exact reflectance for the material's index begins, behind the one that all share.

@@ -23,6 +23,9 @@ std::vector<glm::vec2> facetAlbedos(const TableNeeds& needs, const FacetModel& m
 ScatteringTables::ScatteringTables(const Device& device, const TableNeeds& needs, const EstimatorSettings& settings) {
   const FacetModel model{settings.ndf, settings.masking};
   facetAlbedo_ = upload(device, facetAlbedos(needs, model, settings.fresnel), "tables.facetAlbedo");
+  std::vector<glm::vec2> anisotropic;
+  for (const AnisotropicSurface& surface : needs.anisotropic) append(anisotropic, anisotropicAlbedoTable(surface, model));
+  anisotropicAlbedo_ = upload(device, anisotropic, "tables.anisotropicAlbedo");
   if (needs.clearcoat) clearcoat_ = upload(device, clearcoatTable(model), "tables.clearcoat");
   if (needs.sheen) sheen_ = upload(device, sheenTable(model), "tables.sheen");
   if (!settings.multipleScattering) return;
@@ -35,6 +38,7 @@ ScatteringTables::ScatteringTables(const Device& device, const TableNeeds& needs
 
 void ScatteringTables::writeTo(gpu::SceneView& view) const {
   view.ggxAlbedo = facetAlbedo_;
+  view.anisotropicAlbedo = anisotropicAlbedo_;
   view.glassLoss = glassLoss_;
   view.clearcoatTable = clearcoat_;
   view.sheenTable = sheen_;

@@ -6,6 +6,7 @@
 #include "gpu/buffer.hpp"
 #include "isophote/settings.hpp"
 #include "shared/scene_view.h"
+#include "upload/anisotropic_albedo.hpp"
 #include "upload/glass_loss.hpp"
 
 namespace isophote {
@@ -16,6 +17,7 @@ struct TableNeeds {
   bool clearcoat = false;
   bool sheen = false;
   std::vector<float> opaqueIors;   ///< of dielectric facets: MaterialRecord::exactAlbedo, from kGgxAlbedoSize on
+  std::vector<AnisotropicSurface> anisotropic; ///< one table each: MaterialRecord::anisotropicAlbedo
   std::vector<GlassSurface> glass; ///< one loss table each, 2 kGlassLossHalf items: MaterialRecord::glassLoss
 };
 
@@ -32,6 +34,7 @@ private:
   template <class T> gpu::Address upload(const Device& device, const std::vector<T>& table, const char* name);
 
   gpu::Address facetAlbedo_ = 0;
+  gpu::Address anisotropicAlbedo_ = 0;
   gpu::Address glassLoss_ = 0;
   gpu::Address clearcoat_ = 0;
   gpu::Address sheen_ = 0;
