@@ -103,11 +103,11 @@ std::vector<SettingEntry> makeTable() {
       choice({"masking", "correlated, separable", "correlated", "correlated",
               "Smith's masking and shadowing of microfacets: correlated by their height, or as if independent"},
              estimator, &E::masking, {{"correlated", Masking::Correlated}, {"separable", Masking::Separable}}),
-      choice({"fresnel", "gltf, exact, schlick", "exact", "gltf",
-              "reflectance of dielectrics: exact (mean of s and p), by Schlick's approximation, or as glTF has it: exact "
-              "for glass, Schlick's for opaque surfaces"},
-             estimator, &E::fresnel,
-             {{"gltf", Fresnel::Gltf}, {"exact", Fresnel::Exact}, {"schlick", Fresnel::Schlick}}),
+      choice(
+          {"fresnel", "gltf, exact, schlick", "exact", "gltf",
+           "reflectance of dielectrics: exact (mean of s and p), by Schlick's approximation, or as glTF has it: exact "
+           "for glass, Schlick's for opaque surfaces"},
+          estimator, &E::fresnel, {{"gltf", Fresnel::Gltf}, {"exact", Fresnel::Exact}, {"schlick", Fresnel::Schlick}}),
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
              estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
       choice(

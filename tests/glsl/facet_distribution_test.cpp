@@ -21,7 +21,7 @@ namespace {
 
 constexpr Ndf kNdfs[] = {Ndf::Ggx, Ndf::Beckmann, Ndf::BlinnPhong};
 constexpr Masking kMaskings[] = {Masking::Correlated, Masking::Separable};
-const glm::vec2 kAlphas[] = {{1e-3f, 1e-3f}, {0.01f, 0.01f}, {0.1f, 0.1f},   {0.3f, 0.3f}, {0.5f, 0.5f},
+const glm::vec2 kAlphas[] = {{1e-3f, 1e-3f}, {0.01f, 0.01f}, {0.1f, 0.1f},  {0.3f, 0.3f}, {0.5f, 0.5f},
                              {0.8f, 0.8f},   {1, 1},         {0.05f, 0.5f}, {1, 0.02f}};
 
 std::vector<GgxResult> evaluate(const std::vector<GgxCase>& cases, Ndf ndf, Masking masking = Masking::Correlated) {
@@ -160,15 +160,15 @@ TEST(FacetDistribution, VisibilityAndDensitiesMatchTheOracle) {
   }
 }
 
-// Chi-square of sampled normals, seen and unseen, against the oracle's densities, over 24 x 24 bins of the slope's
-// azimuth and of s = 1 / sqrt(1 + slope^2 / 4). Significance 1e-3 over all cases (Sidak); 2e5 samples and 576 bins
+// Chi-square of sampled normals, seen and unseen, against the oracle's densities, over 16 x 16 bins of the slope's
+// azimuth and of s = 1 / sqrt(1 + slope^2 / 4). Significance 1e-3 over all cases (Sidak); 1e5 samples and 256 bins
 // reject a density that is off by 3% root mean square. The integral of the density is 1 to 2e-3.
 TEST(FacetDistribution, SampledNormalsFollowTheirDensity) {
-  const int bins = 24;
-  const int nodes = 16;
-  const size_t count = 200000;
+  const int bins = 16;
+  const int nodes = 40; // wide facets seen from near the horizon show a strip of half of them, 0.1 wide
+  const size_t count = 100000;
   const std::pair<glm::vec2, double> cases[] = {{{0.01f, 0.01f}, 0.02}, {{0.1f, 0.1f}, 0.05}, {{0.5f, 0.5f}, 0.5},
-                                                {{1, 1}, 0.05},         {{0.1f, 0.6f}, 0.3},  {{1e-3f, 1e-3f}, 0.5}};
+                                                {{1, 1}, 0.1},          {{0.1f, 0.6f}, 0.3},  {{1e-3f, 1e-3f}, 0.5}};
   const Ndf ndfs[] = {Ndf::Beckmann, Ndf::BlinnPhong}; // of GGX: ggx_test.cpp
   const double significance = test::sidak(1e-3, 2 * std::size(ndfs) * std::size(cases));
   std::mt19937 generator(11);
@@ -204,8 +204,8 @@ TEST(FacetDistribution, SampledNormalsFollowTheirDensity) {
           const glm::dvec3 wm =
               glm::normalize(glm::dvec3(alpha.x * slope * std::cos(phi), alpha.y * slope * std::sin(phi), 1));
           // dwm = wm.z^3 alpha.x alpha.y d(slope^2) / 2 dphi, d(slope^2) = 8 / s^3 ds
-          const double solidAngle = std::pow(wm.z, 3) * alpha.x * alpha.y * 4 / std::pow(s, 3) * 2 * pi /
-                                    std::pow(double(bins * nodes), 2);
+          const double solidAngle =
+              std::pow(wm.z, 3) * alpha.x * alpha.y * 4 / std::pow(s, 3) * 2 * pi / std::pow(double(bins * nodes), 2);
           const size_t bin = size_t(i / nodes * bins + j / nodes);
           const double density = oracle::pdfFacetSeen(ndf, glm::dvec3(c.wo), wm, alpha);
           expectedSeen[bin] += double(count) * density * solidAngle;

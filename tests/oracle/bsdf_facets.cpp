@@ -78,11 +78,11 @@ double pdfFacetSeen(Ndf ndf, const glm::dvec3& wo, const glm::dvec3& wm, const g
 glm::dvec2 facetAlbedo(FacetKind kind, const glm::dvec3& wo, const glm::dvec2& alpha, int count, double exactIor) {
   const double normal = exactIor >= 1 ? fresnelDielectric(1, exactIor) : 0;
   // Lambda depends on the ratio of the width that w sees to its cosine alone, for one product of widths.
-  constexpr int kNodes = 400;
+  constexpr int kNodes = 2000;
   static thread_local std::array<double, kNodes + 1> nodes;
   static thread_local std::pair<Ndf, double> known{Ndf::Ggx, -1};
   const double area = alpha.x * alpha.y;
-  if (known != std::pair(kind.ndf, area)) {
+  if (kind.ndf != Ndf::Ggx && known != std::pair(kind.ndf, area)) {
     for (int i = 0; i <= kNodes; ++i) {
       const double angle = pi / 2 * i / kNodes; // tan = across / (z sqrt(area))
       const double r = std::sqrt(area);
@@ -92,6 +92,7 @@ glm::dvec2 facetAlbedo(FacetKind kind, const glm::dvec3& wo, const glm::dvec2& a
   }
   // |w stretched| times the projected area of the unit vector along it.
   const auto length = [&](const glm::dvec3& w) {
+    if (kind.ndf == Ndf::Ggx) return std::hypot(glm::length(alpha * glm::dvec2(w)), w.z); // Heitz 2014, eq. 86
     const glm::dvec2 across = alpha * glm::dvec2(w) / std::sqrt(area);
     const double position = std::atan2(glm::length(across), w.z) / (pi / 2) * kNodes;
     const int i = std::min(int(position), kNodes - 1);
@@ -100,7 +101,8 @@ glm::dvec2 facetAlbedo(FacetKind kind, const glm::dvec3& wo, const glm::dvec2& a
   const double lengthO = length(wo);
   glm::dvec2 sum(0);
   for (int i = 0; i < count; ++i) {
-    const double slope = slopeQuantile(kind.ndf, (i + 0.5) / count, area);
+    const double t = (i + 0.5) / count; // u = t^3: nodes crowd at steep slopes
+    const double slope = slopeQuantile(kind.ndf, t * t * t, area);
     for (int j = 0; j < 2 * count; ++j) {
       const double phi = pi * (j + 0.5) / count;
       const glm::dvec3 wm = glm::normalize(glm::dvec3(slope * alpha * glm::dvec2(std::cos(phi), std::sin(phi)), 1));
@@ -112,7 +114,8 @@ glm::dvec2 facetAlbedo(FacetKind kind, const glm::dvec3& wo, const glm::dvec2& a
       const double g2 = kind.masking == Masking::Correlated ? 1 / (1 + o + k) : 1 / ((1 + o) * (1 + k));
       const double x = exactIor >= 1 ? (fresnelDielectric(cosine, exactIor) - normal) / (1 - normal)
                                      : std::pow(1 - std::min(cosine, 1.0), 5);
-      sum += g2 * cosine / (wo.z * wm.z) * glm::dvec2(1 - x, x); // D G2 cosine / wo.z over the density D wm.z
+      sum +=
+          3 * t * t * g2 * cosine / (wo.z * wm.z) * glm::dvec2(1 - x, x); // D G2 cosine / wo.z over the density D wm.z
     }
   }
   return sum / (2.0 * count * count);

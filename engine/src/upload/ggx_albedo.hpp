@@ -9,8 +9,8 @@
 
 namespace isophote {
 
-/// The integrals (A, B) of isotropic facets over outgoing cosine and roughness, laid out as shared/bsdf_constants.h says,
-/// computed in double precision at the first call for a model (about 0.1 s) and kept.
+/// The integrals (A, B) of isotropic facets over outgoing cosine and roughness, laid out as shared/bsdf_constants.h
+/// says, computed in double precision at the first call for a model (about 0.1 s) and kept.
 ///
 /// A and B are the directional albedo's parts with Fresnel weights 1 - (1-c)^5 and (1-c)^5, c the cosine at the half
 /// vector. Roughness 0 is the smooth mirror: A = 1 - (1-mu)^5, B = (1-mu)^5.

@@ -28,20 +28,18 @@ glm::dvec2 directionalLoss(const Facets& facets, double mu, double eta, bool byS
     return (below ? -wi.z : wi.z) > 0 ? facets.passage(wo, lengthO, wi) : 0.0;
   };
   glm::dvec2 sum(0);
-  forVisibleNormals(facets, wo, {kHeightCount, kAzimuthCount, true},
-                    [&](const glm::dvec3& wm, double cosine, double weight) {
-                      const double reflected = kept(2 * cosine * wm - wo, false);
-                      const double squaredCosT = 1 - (1 - square(cosine)) / square(eta);
-                      if (squaredCosT <= 0) {
-                        sum += weight * glm::dvec2(reflected);
-                        return;
-                      }
-                      const double transmitted =
-                          kept((cosine / eta - std::sqrt(squaredCosT)) * wm - wo / eta, true);
-                      const double reflectance =
-                          bySchlick ? schlickReflectance(cosine, eta) : dielectricReflectance(cosine, eta);
-                      sum += weight * glm::dvec2(std::lerp(transmitted, reflected, reflectance), transmitted);
-                    });
+  forVisibleNormals(
+      facets, wo, {kHeightCount, kAzimuthCount, true}, [&](const glm::dvec3& wm, double cosine, double weight) {
+        const double reflected = kept(2 * cosine * wm - wo, false);
+        const double squaredCosT = 1 - (1 - square(cosine)) / square(eta);
+        if (squaredCosT <= 0) {
+          sum += weight * glm::dvec2(reflected);
+          return;
+        }
+        const double transmitted = kept((cosine / eta - std::sqrt(squaredCosT)) * wm - wo / eta, true);
+        const double reflectance = bySchlick ? schlickReflectance(cosine, eta) : dielectricReflectance(cosine, eta);
+        sum += weight * glm::dvec2(std::lerp(transmitted, reflected, reflectance), transmitted);
+      });
   return glm::max(1.0 - sum, 0.0);
 }
 
@@ -52,8 +50,8 @@ std::vector<glm::vec2> lossFrom(double eta, const GlassSurface& glass, const Gla
   for (uint32_t r = 0; r < gpu::kGlassLossRoughnessCount; ++r) {
     constexpr double kSpacing = 1.0 / (gpu::kGlassLossRoughnessCount - 1);
     const double roughness = r * kSpacing;
-    const bool skipped = r == 0 || roughness < double(glass.roughness.x) - kSpacing ||
-                         roughness > double(glass.roughness.y) + kSpacing;
+    const bool skipped =
+        r == 0 || roughness < double(glass.roughness.x) - kSpacing || roughness > double(glass.roughness.y) + kSpacing;
     const Facets facets(model.facets, glm::dvec2(std::max(square(roughness), double(gpu::kMirrorAlpha))));
     std::array<glm::dvec2, gpu::kGlassLossMuCount> row;
     for (uint32_t c = 0; c < gpu::kGlassLossMuCount; ++c) {

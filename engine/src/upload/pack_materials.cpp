@@ -124,9 +124,8 @@ private:
   uint32_t anisotropicAlbedo(const Material& material) {
     if (material.anisotropy.strength <= 0) return gpu::kInvalidIndex;
     const auto range = [](float largest, bool textured) { return glm::vec2(textured ? 0 : largest, largest); };
-    const AnisotropicSurface surface{
-        range(material.roughness, material.metallicRoughnessTexture.present()),
-        range(material.anisotropy.strength, material.anisotropy.texture.present())};
+    const AnisotropicSurface surface{range(material.roughness, material.metallicRoughnessTexture.present()),
+                                     range(material.anisotropy.strength, material.anisotropy.texture.present())};
     uint32_t first = 0;
     for (const AnisotropicSurface& known : packed_.tables.anisotropic) {
       if (known == surface) return first;

@@ -66,7 +66,7 @@ struct PackedScene {
   glm::dvec3 worldOrigin{0}; ///< subtracted from every world position before rounding to float
   glm::dvec3 worldCenter{0}; ///< of the bounds, absolute
   double worldRadius = 1;    ///< half diagonal of the bounds; 1 for an empty scene
-  float emitterScale = 1; ///< power of two at or above the largest radiance that a camera path can meet in one event
+  float emitterScale = 1;    ///< power of two at or above the largest radiance that a camera path can meet in one event
   FeatureSet features;
   BvhStatistics bvh;
 };

@@ -24,7 +24,8 @@ ScatteringTables::ScatteringTables(const Device& device, const TableNeeds& needs
   const FacetModel model{settings.ndf, settings.masking};
   facetAlbedo_ = upload(device, facetAlbedos(needs, model, settings.fresnel), "tables.facetAlbedo");
   std::vector<glm::vec2> anisotropic;
-  for (const AnisotropicSurface& surface : needs.anisotropic) append(anisotropic, anisotropicAlbedoTable(surface, model));
+  for (const AnisotropicSurface& surface : needs.anisotropic)
+    append(anisotropic, anisotropicAlbedoTable(surface, model));
   anisotropicAlbedo_ = upload(device, anisotropic, "tables.anisotropicAlbedo");
   if (needs.clearcoat) clearcoat_ = upload(device, clearcoatTable(model), "tables.clearcoat");
   if (needs.sheen) sheen_ = upload(device, sheenTable(model), "tables.sheen");
