@@ -97,6 +97,17 @@ std::vector<SettingEntry> makeTable() {
               {"ndf", DirectionSampling::Ndf},
               {"visible-normals", DirectionSampling::VisibleNormals},
               {"mixture", DirectionSampling::Mixture}}),
+      choice({"ndf", "ggx, beckmann, blinn-phong", "ggx", "ggx",
+              "how the normals of microfacets are distributed: another model of rough surfaces, not another estimate"},
+             estimator, &E::ndf, {{"ggx", Ndf::Ggx}, {"beckmann", Ndf::Beckmann}, {"blinn-phong", Ndf::BlinnPhong}}),
+      choice({"masking", "correlated, separable", "correlated", "correlated",
+              "Smith's masking and shadowing of microfacets: correlated by their height, or as if independent"},
+             estimator, &E::masking, {{"correlated", Masking::Correlated}, {"separable", Masking::Separable}}),
+      choice(
+          {"fresnel", "gltf, exact, schlick", "exact", "gltf",
+           "reflectance of dielectrics: exact (mean of s and p), by Schlick's approximation, or as glTF has it: exact "
+           "for glass, Schlick's for opaque surfaces"},
+          estimator, &E::fresnel, {{"gltf", Fresnel::Gltf}, {"exact", Fresnel::Exact}, {"schlick", Fresnel::Schlick}}),
       choice({"shadow-transmission", "off, straight", "off", "off",
               "glass before a light: shadow rays end there and paths find the light, or they cross it unbent (bias)"},
              estimator, &E::shadowTransmission,

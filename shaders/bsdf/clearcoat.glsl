@@ -2,8 +2,8 @@
 #ifndef ISOPHOTE_BSDF_CLEARCOAT_GLSL
 #define ISOPHOTE_BSDF_CLEARCOAT_GLSL
 
+#include "bsdf/facet_distribution.glsl"
 #include "bsdf/fresnel.glsl"
-#include "bsdf/ggx.glsl"
 #include "bsdf/layer.glsl"
 #include "math/frame.glsl"
 
@@ -28,14 +28,17 @@ vec2 evaluateCoat(const Clearcoat coat, const vec3 wo, const vec3 wi) {
   const vec3 sum = wo + wi;
   const float twoCosine = length(sum);
   const vec3 wm = sum / twoCosine;
-  return vec2(coatReflectance(0.5 * twoCosine) * ggxD(wm, alpha) * ggxVisibility(wo, wi, alpha) * wi.z,
+  return vec2(coatReflectance(0.5 * twoCosine) * facetD(wm, alpha) * facetVisibility(wo, wi, alpha) * wi.z,
               pdfVisibleReflection(wo, wm, alpha));
 }
 
 /// Samples the coat's reflection of wo, both in the coat's frame. The result may lie below the horizon.
-vec3 sampleCoat(const Clearcoat coat, const vec3 wo, const vec2 u) {
+///
+/// @param u     in [0, 1)^2
+/// @param uSide in [0, 1)
+vec3 sampleCoat(const Clearcoat coat, const vec3 wo, const vec2 u, float uSide) {
   if (coatIsMirror(coat)) return vec3(-wo.xy, wo.z);
-  const vec3 wm = sampleVisibleNormal(wo, vec2(coat.roughness * coat.roughness), u);
+  const vec3 wm = sampleVisibleNormal(wo, vec2(coat.roughness * coat.roughness), u, 1.0, uSide);
   return normalize(2.0 * dot(wo, wm) * wm - wo);
 }
 

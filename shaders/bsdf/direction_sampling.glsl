@@ -5,7 +5,7 @@
 #ifndef ISOPHOTE_BSDF_DIRECTION_SAMPLING_GLSL
 #define ISOPHOTE_BSDF_DIRECTION_SAMPLING_GLSL
 
-#include "bsdf/ggx.glsl"
+#include "bsdf/facet_distribution.glsl"
 #include "bsdf/surface_bsdf.glsl"
 #include "sampling/warp.glsl"
 #include "shared/constants.glsl"
@@ -43,7 +43,7 @@ float pdfTechnique(const uint technique, const SurfaceBsdf bsdf, const vec3 woLo
   const vec3 sum = woLocal + wiLocal;
   const float twoCosine = length(sum); // 2 dot(wo, wm)
   const vec3 wm = sum / twoCosine;
-  const float ndf = ggxD(wm, width) * wm.z / (2.0 * twoCosine);
+  const float ndf = facetD(wm, width) * wm.z / (2.0 * twoCosine);
   if (technique == kDirectionsNdf) return ndf;
   const float visible = pdfVisibleReflection(woLocal, wm, width);
   if (technique == kDirectionsVisibleNormals) return visible;
@@ -56,11 +56,14 @@ float pdfTechnique(const uint technique, const SurfaceBsdf bsdf, const vec3 woLo
 /// @param u          in [0, 1)^2
 vec3 sampleTechnique(const uint technique, const SurfaceBsdf bsdf, const vec3 woLocal, const float uTechnique,
                      const vec2 u) {
-  const uint one = technique == kDirectionsMixture ? kDirectionsUniform + uint(4.0 * uTechnique) : technique;
+  const bool isMixture = technique == kDirectionsMixture;
+  const uint one = isMixture ? kDirectionsUniform + uint(4.0 * uTechnique) : technique;
   if (one == kDirectionsUniform) return sampleUniformCone(u, 1.0);
   if (one == kDirectionsCosine) return sampleCosineHemisphere(u);
   const vec2 width = techniqueWidth(bsdf);
-  const vec3 wm = one == kDirectionsNdf ? sampleGgxNormal(width, u) : sampleVisibleNormal(woLocal, width, u);
+  float uSide = isMixture ? fract(4.0 * uTechnique) : uTechnique;
+  const vec3 wm =
+      one == kDirectionsNdf ? sampleFacetNormal(width, u) : sampleVisibleNormal(woLocal, width, u, 1.0, uSide);
   return normalize(2.0 * dot(woLocal, wm) * wm - woLocal);
 }
 

@@ -2,6 +2,10 @@
 #ifndef ISOPHOTE_BSDF_FRESNEL_GLSL
 #define ISOPHOTE_BSDF_FRESNEL_GLSL
 
+// Values of isophote::Fresnel beside 0, as glTF has it.
+const uint kFresnelExact = 1u;
+const uint kFresnelSchlick = 2u;
+
 /// Interpolates from f0 at normal incidence to f90 at grazing: f0 + (f90 - f0) (1 - cosine)^5.
 ///
 /// Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", eq. 15; f90 free as in glTF 2.0.
@@ -32,6 +36,24 @@ float fresnelDielectric(const float cosI, const float eta) {
   const float s = difference / sum;
   const float p = (cosI * sum - 1.0) / (cosI * difference + 1.0); // divisor >= min(1, eta^2)
   return min(0.5 * s * s * (1.0 + p * p), 1.0);
+}
+
+/// Schlick's approximation of fresnelDielectric, by the cosine on the less dense side: 1 where reflection is total.
+/// @param cosI, eta as there
+float schlickDielectric(const float cosI, const float eta) {
+  const float g2 = (eta - 1.0) * (eta + 1.0) + cosI * cosI; // (eta cosT)^2
+  if (g2 <= 0.0) return 1.0;
+  const float amplitude = (eta - 1.0) / (eta + 1.0);
+  const float x = 1.0 - min(eta < 1.0 ? sqrt(g2) / eta : cosI, 1.0);
+  const float x2 = x * x;
+  return mix(amplitude * amplitude, 1.0, x2 * x2 * x);
+}
+
+/// How far a reflectance at the boundary of index ratio eta has come from normal to grazing incidence, in [0, 1].
+float grazingShare(const float reflectance, const float eta) {
+  const float amplitude = (eta - 1.0) / (eta + 1.0);
+  const float normal = amplitude * amplitude;
+  return max((reflectance - normal) / (1.0 - normal), 0.0);
 }
 
 /// Reflectance of unpolarized light at the boundary between a dielectric and a conductor.

@@ -1,4 +1,4 @@
-// The GGX microfacet distribution with Smith masking, and its visible normals.
+// The GGX microfacet distribution, its masking by Smith's model, and its visible normals.
 //
 // Directions are unit and in the local shading frame, z the normal. alpha is the width along x and y, equal where the
 // surface is isotropic, in [1e-3, 1]. Cosines may be as small as 1e-7.
@@ -8,9 +8,6 @@
 #include "math/constants.glsl"
 #include "math/trigonometry.glsl"
 #include "sampling/warp.glsl"
-
-// A direction closer to the horizon than this counts as below it: single precision cannot tell.
-const float kMinCosine = 1e-7;
 
 /// Density of microfacet normals, per steradian, so that the integral of D cos over the hemisphere is 1.
 ///
@@ -25,32 +22,6 @@ float ggxD(const vec3 wm, const vec2 alpha) {
 
 /// z sqrt(1 + alpha^2 tan^2): Smith's Lambda is (this / z - 1) / 2. No 0 / 0 at grazing angles.
 float ggxProjectedLength(const vec3 w, const vec2 alpha) { return length(vec3(alpha * w.xy, w.z)); }
-
-/// Share of microfacets that w sees unblocked. Source: Heitz 2014, eq. 43 and 86.
-float ggxG1(const vec3 w, const vec2 alpha) { return 2.0 * w.z / (w.z + ggxProjectedLength(w, alpha)); }
-
-/// G2 / (4 cos wo cos wi) with height-correlated masking and shadowing. Source: Heitz 2014, eq. 99, multiplied out.
-float ggxVisibility(const vec3 wo, const vec3 wi, const vec2 alpha) {
-  return 0.5 / (wi.z * ggxProjectedLength(wo, alpha) + wo.z * ggxProjectedLength(wi, alpha));
-}
-
-/// G2 / G1(wo), in [0, 1]: what a sampled visible normal's reflection weighs beside its Fresnel reflectance.
-float ggxSampleWeight(const vec3 wo, const vec3 wi, const vec2 alpha) {
-  const float lengthO = ggxProjectedLength(wo, alpha);
-  const float lengthI = ggxProjectedLength(wi, alpha);
-  return min(wi.z * (wo.z + lengthO) / (wi.z * lengthO + wo.z * lengthI), 1.0);
-}
-
-/// Density of sampleVisibleNormal, per steradian of wm. Source: Heitz 2014, eq. 16.
-float pdfVisibleNormal(const vec3 wo, const vec3 wm, const vec2 alpha) {
-  return 2.0 * max(dot(wo, wm), 0.0) * ggxD(wm, alpha) / (wo.z + ggxProjectedLength(wo, alpha));
-}
-
-/// Density of the reflection of wo about a sampled visible normal wm, per steradian of wi.
-/// Source: Heitz 2014, eq. 16 and 17: pdfVisibleNormal / (4 dot(wo, wm)).
-float pdfVisibleReflection(const vec3 wo, const vec3 wm, const vec2 alpha) {
-  return 0.5 * ggxD(wm, alpha) / (wo.z + ggxProjectedLength(wo, alpha));
-}
 
 /// Samples microfacet normals proportionally to D cos, per steradian of wm, seen or not.
 ///
@@ -68,7 +39,7 @@ vec3 sampleGgxNormal(const vec2 alpha, const vec2 u) {
 /// radius are written on u.y so that neither is a difference of near equals.
 /// @param u in [0, 1)^2
 /// @return  unit, z > 0
-vec3 sampleVisibleNormal(const vec3 wo, const vec2 alpha, const vec2 u) {
+vec3 sampleVisibleGgxNormal(const vec3 wo, const vec2 alpha, const vec2 u) {
   const vec3 stretched = vec3(alpha * wo.xy, wo.z);
   const vec3 view = stretched / length(stretched);
   // Uniform on the cap of reflected directions above -view.z: z = (1 - u.y)(1 + view.z) - view.z.

@@ -10,17 +10,18 @@
 
 /// Returns (A, B) for light leaving along a direction of cosine mu, bilinear in sqrt(mu) and roughness.
 ///
+/// @param start where the table it begins: 0, or MetallicRoughness::exactAlbedo
 /// @param mu    in [0, 1], clamped
 /// @param alpha roughness squared, in [0, 1]; 0 gives the smooth mirror's exact limit at the table's nodes
 /// Accuracy: see docs/bsdf.md, measured in tests/unit/ggx_albedo_test.cpp.
-vec2 ggxAlbedo(const SceneRef scene, const float mu, const float alpha) {
+vec2 ggxAlbedo(const SceneRef scene, const uint start, const float mu, const float alpha) {
   if (scene.view.ggxAlbedo == 0ul) return vec2(0.0); // an all-features kernel on a scene without specular surfaces
   const float column = sqrt(clamp(mu, 0.0, 1.0)) * float(kGgxAlbedoMuCount - 1u);
   const float row = sqrt(clamp(alpha, 0.0, 1.0)) * float(kGgxAlbedoRoughnessCount - 1u);
   const uint c = min(uint(column), kGgxAlbedoMuCount - 2u);
   const uint r = min(uint(row), kGgxAlbedoRoughnessCount - 2u);
   Vec2Ref table = Vec2Ref(scene.view.ggxAlbedo);
-  const uint first = r * kGgxAlbedoMuCount + c;
+  const uint first = start + r * kGgxAlbedoMuCount + c;
   const uint second = first + kGgxAlbedoMuCount;
   const float t = column - float(c);
   return mix(mix(table.items[first], table.items[first + 1u], t), mix(table.items[second], table.items[second + 1u], t),
@@ -28,12 +29,13 @@ vec2 ggxAlbedo(const SceneRef scene, const float mu, const float alpha) {
 }
 
 /// Returns the cosine-weighted mean of (A, B) over the hemisphere, 2 times the integral of (A, B) mu over mu.
-vec2 ggxMeanAlbedo(const SceneRef scene, const float alpha) {
+vec2 ggxMeanAlbedo(const SceneRef scene, const uint start, const float alpha) {
   if (scene.view.ggxAlbedo == 0ul) return vec2(0.0);
   const float row = sqrt(clamp(alpha, 0.0, 1.0)) * float(kGgxAlbedoRoughnessCount - 1u);
   const uint r = min(uint(row), kGgxAlbedoRoughnessCount - 2u);
   Vec2Ref means = Vec2Ref(scene.view.ggxAlbedo);
-  return mix(means.items[kGgxAlbedoMeans + r], means.items[kGgxAlbedoMeans + r + 1u], row - float(r));
+  const uint first = start + kGgxAlbedoMeans + r;
+  return mix(means.items[first], means.items[first + 1u], row - float(r));
 }
 
 #endif

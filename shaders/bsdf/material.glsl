@@ -98,9 +98,11 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const
         record.specularColor * materialTexel(scene, surface, geometry, record.specularColorSlot).rgb;
     material.bsdf.base = metallicRoughness(reflectance, record.metallic * packed.b, record.roughness * packed.g, eta,
                                            specular, specularColor);
+    setExactAlbedo(material.bsdf.base, record.ior, record.exactAlbedo);
     if (kHasAnisotropy && record.anisotropyStrength > 0.0) {
       setAnisotropy(material.bsdf.base,
-                    record.anisotropyStrength * anisotropyTexel(scene, surface, geometry, record.anisotropySlot).b);
+                    record.anisotropyStrength * anisotropyTexel(scene, surface, geometry, record.anisotropySlot).b,
+                    record.anisotropicAlbedo);
     }
     if (kHasTransmission && ior >= 1.0) {
       const float transmission =

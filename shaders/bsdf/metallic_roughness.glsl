@@ -5,10 +5,11 @@
 #ifndef ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
 #define ISOPHOTE_BSDF_METALLIC_ROUGHNESS_GLSL
 
+#include "bsdf/anisotropic_albedo.glsl"
 #include "bsdf/dielectric_interface.glsl"
 #include "bsdf/diffuse_transmission.glsl"
+#include "bsdf/facet_distribution.glsl"
 #include "bsdf/fresnel.glsl"
-#include "bsdf/ggx.glsl"
 #include "bsdf/ggx_albedo.glsl"
 #include "bsdf/glass_loss.glsl"
 #include "bsdf/iridescence.glsl"
@@ -25,8 +26,12 @@ struct MetallicRoughness {
   float alpha; // roughness squared, of anisotropic facets the geometric mean of both widths; below kMirrorAlpha the
                // specular lobe is a delta mirror
   vec2 width;  // alpha along x and y
+  vec2 grain;  // roughness and strength of anisotropic facets
+  uint anisotropicAlbedo; // where their table begins; kInvalidIndex: isotropic
   vec3 f90;
   float diffuse;      // share of the surface that has a diffuse lobe under its coat
+  float ior;          // of opaque dielectric facets, where the setting fresnel is exact; below 1 stands for infinity
+  uint exactAlbedo;   // where the table of their albedo begins in scene.view.ggxAlbedo, as the setting has it
   float dielectricF0; // of the coat over the diffuse lobe: its largest channel, so that no channel gains energy
   float dielectricF90;
   vec3 glassF0;     // of dielectric facets at normal incidence
@@ -79,9 +84,13 @@ MetallicRoughness metallicRoughness(const vec3 baseColor, const float metallic, 
   m.metallic = metallic;
   m.alpha = roughness * roughness;
   m.width = vec2(m.alpha);
+  m.grain = vec2(0.0);
+  m.anisotropicAlbedo = kInvalidIndex;
   m.f0 = mix(dielectric, baseColor, metallic);
   m.f90 = vec3(mix(specular, 1.0, metallic));
   m.diffuse = 1.0 - metallic;
+  m.ior = ior;
+  m.exactAlbedo = 0u;
   m.dielectricF0 = max(dielectric.x, max(dielectric.y, dielectric.z));
   m.dielectricF90 = specular;
   m.glassF0 = dielectric;
@@ -114,15 +123,25 @@ void setGlassLoss(inout MetallicRoughness m, const uint table, const bool frontF
   m.lossBehind = frontFace ? table + kGlassLossHalf : table;
 }
 
+/// Names the table of the albedo that opaque dielectric facets have where the setting fresnel is exact.
+/// @param ior of the material in air
+void setExactAlbedo(inout MetallicRoughness m, const float ior, const uint table) {
+  m.ior = ior;
+  m.exactAlbedo = kFresnel == kFresnelExact ? table : 0u;
+}
+
 /// Widens the facets' slopes along x.
 ///
-/// Source: Khronos, KHR_materials_anisotropy: mix(alpha, 1, strength^2) along x, alpha along y. The albedo tables are
-/// read at the geometric mean.
+/// Source: Khronos, KHR_materials_anisotropy: mix(alpha, 1, strength^2) along x, alpha along y. The tables of glass and
+/// layers are read at the geometric mean.
 /// @param strength in [0, 1]
-void setAnisotropy(inout MetallicRoughness m, const float strength) {
+/// @param table    of the albedo
+void setAnisotropy(inout MetallicRoughness m, const float strength, const uint table) {
   if (strength <= 0.0) return;
   const vec2 width = vec2(mix(m.alpha, 1.0, strength * strength), m.alpha);
   if (width.x < kMirrorAlpha) return;
+  m.grain = vec2(sqrt(m.alpha), strength);
+  m.anisotropicAlbedo = table;
   m.width = max(width, vec2(kMirrorAlpha));
   m.alpha = sqrt(m.width.x * m.width.y);
 }
@@ -157,11 +176,21 @@ vec3 metalReflectance(const MetallicRoughness m, const float cosine) {
               fresnelConductor(cosine, m.conductorN.z, m.conductorK.z));
 }
 
+// Whether opaque dielectric facets reflect by the Fresnel equations; those under a film are Schlick's.
+bool reflectsExactly(const MetallicRoughness m) { return kFresnel == kFresnelExact && m.ior >= 1.0 && !hasFilm(m); }
+
+// What opaque dielectric facets reflect.
+vec3 opaqueReflectance(const MetallicRoughness m, const float cosine) {
+  if (!reflectsExactly(m)) return fresnelSchlick(m.glassF0, vec3(m.glassF90), cosine);
+  const float share = grazingShare(fresnelDielectric(cosine, m.ior), m.ior);
+  return m.glassF0 + (vec3(m.glassF90) - m.glassF0) * share;
+}
+
 /// What facets other than glass reflect.
 vec3 facetReflectance(const MetallicRoughness m, const float cosine) {
-  if (!hasFilm(m) && !isConductor(m)) return fresnelSchlick(m.f0, m.f90, cosine);
+  if (!hasFilm(m) && !isConductor(m) && !reflectsExactly(m)) return fresnelSchlick(m.f0, m.f90, cosine);
   vec3 metal = metalReflectance(m, cosine);
-  vec3 dielectric = fresnelSchlick(m.glassF0, vec3(m.glassF90), cosine);
+  vec3 dielectric = opaqueReflectance(m, cosine);
   if (hasFilm(m)) {
     metal = mix(metal, filmReflectance(m.film, cosine, metalReflectance(m, 1.0)), m.film.amount);
     dielectric = mix(dielectric, filmReflectance(m.film, cosine, m.glassF0), m.film.amount);
@@ -192,19 +221,48 @@ bool isMirror(const MetallicRoughness m) { return kHasMirror && m.alpha < kMirro
 // Table alpha: a mirror's albedo is the limit alpha = 0.
 float albedoAlpha(const MetallicRoughness m) { return isMirror(m) ? 0.0 : m.alpha; }
 
+/// Returns (A, B) of the facets for light leaving along w, |w.z| the cosine.
+vec2 facetAlbedo(const SceneRef scene, const MetallicRoughness m, const vec3 w) {
+  if (kHasAnisotropy && m.anisotropicAlbedo != kInvalidIndex) {
+    const AnisotropicCell cell = anisotropicCell(scene, m.anisotropicAlbedo, m.grain);
+    return anisotropicAlbedo(scene, cell, m.width, vec3(w.xy, abs(w.z)));
+  }
+  return ggxAlbedo(scene, 0u, abs(w.z), albedoAlpha(m));
+}
+
+/// Returns the cosine-weighted mean of facetAlbedo.
+vec2 facetMeanAlbedo(const SceneRef scene, const MetallicRoughness m) {
+  if (kHasAnisotropy && m.anisotropicAlbedo != kInvalidIndex) {
+    return anisotropicMeanAlbedo(scene, anisotropicCell(scene, m.anisotropicAlbedo, m.grain));
+  }
+  return ggxMeanAlbedo(scene, 0u, albedoAlpha(m));
+}
+
+// The same sum, parted as the coat's reflectance parts it: by the exact one where the setting has that.
+vec2 coatAlbedo(const SceneRef scene, const MetallicRoughness m, const vec2 albedo, const float mu) {
+  if (!reflectsExactly(m) || m.exactAlbedo == 0u) return albedo;
+  const float grazing = ggxAlbedo(scene, m.exactAlbedo, mu, albedoAlpha(m)).y;
+  return vec2(albedo.x + albedo.y - grazing, grazing);
+}
+
+vec2 coatMeanAlbedo(const SceneRef scene, const MetallicRoughness m, const vec2 mean) {
+  if (!reflectsExactly(m) || m.exactAlbedo == 0u) return mean;
+  const float grazing = ggxMeanAlbedo(scene, m.exactAlbedo, albedoAlpha(m)).y;
+  return vec2(mean.x + mean.y - grazing, grazing);
+}
+
 float largest(const vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 float luminance(const vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); } // of Rec.709 primaries
 
-/// Returns the reflectance of a facet of glass: fresnelDielectric, scaled as KHR_materials_specular scales Schlick's
+/// Returns the reflectance of a facet of glass: fresnelDielectric, or the setting's, scaled as KHR_materials_specular scales Schlick's
 /// approximation, f0 + (f90 - f0) x with x the share of the way from normal to grazing reflectance. Total internal
 /// reflection is total whatever the scale.
 vec3 glassReflectance(const MetallicRoughness m, const float cosine) {
-  const float exact = fresnelDielectric(cosine, m.eta);
-  if (exact >= 1.0) return vec3(1.0);
-  const float amplitude = (m.eta - 1.0) / (m.eta + 1.0);
-  const float normal = amplitude * amplitude;
-  const vec3 bare = m.glassF0 + (vec3(m.glassF90) - m.glassF0) * max((exact - normal) / (1.0 - normal), 0.0);
+  const float reflectance =
+      kFresnel == kFresnelSchlick ? schlickDielectric(cosine, m.eta) : fresnelDielectric(cosine, m.eta);
+  if (reflectance >= 1.0) return vec3(1.0);
+  const vec3 bare = m.glassF0 + (vec3(m.glassF90) - m.glassF0) * grazingShare(reflectance, m.eta);
   if (!hasFilm(m)) return bare;
   const float sin2Outside = (1.0 - cosine * cosine) / min(m.eta * m.eta, 1.0); // from inside, by Snell's law
   return mix(bare, filmReflectance(m.film, sqrt(max(1.0 - sin2Outside, 0.0)), m.glassF0), m.film.amount);
@@ -276,9 +334,9 @@ float coatTransmission(const MetallicRoughness m, const vec2 albedo, const float
 
 // The same in one direction. Schlick's curve follows a film only roughly: no channel of the film itself may reflect
 // what the coat lets through.
-float coatTransmissionAt(const MetallicRoughness m, const float mu, const vec2 albedo, const float multiple,
-                         const float lost) {
-  const float passed = coatTransmission(m, albedo, multiple, lost);
+float coatTransmissionAt(const SceneRef scene, const MetallicRoughness m, const float mu, const vec2 albedo,
+                         const float multiple, const float lost) {
+  const float passed = coatTransmission(m, coatAlbedo(scene, m, albedo, mu), multiple, lost);
   if (!hasFilm(m)) return passed;
   const vec3 bare = fresnelSchlick(m.glassF0, vec3(m.glassF90), mu);
   return min(passed, 1.0 - largest(mix(bare, filmReflectance(m.film, mu, m.glassF0), m.film.amount)));
@@ -316,26 +374,27 @@ GlassMultiple glassMultiple(const SceneRef scene, const MetallicRoughness m, con
 }
 
 // How the losses of glass continue at wi, on wo's side or the other.
-float glassLossAt(const SceneRef scene, const MetallicRoughness m, const float muI, const bool behind) {
-  if (m.thinWalled) return lostBetweenFacets(ggxAlbedo(scene, muI, albedoAlpha(m)));
+float glassLossAt(const SceneRef scene, const MetallicRoughness m, const vec3 wi, const bool behind) {
+  if (m.thinWalled) return lostBetweenFacets(facetAlbedo(scene, m, wi));
   if (kMultipleScattering == 0u || m.lossInFront == kInvalidIndex || transmitsDelta(m)) return 0.0;
-  return glassLoss(scene, behind ? m.lossBehind : m.lossInFront, muI, m.alpha, specularScale(m));
+  return glassLoss(scene, behind ? m.lossBehind : m.lossInFront, abs(wi.z), m.alpha, specularScale(m));
 }
 
-/// @param muO cosine of wo
-BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const float muO) {
-  const float alpha = albedoAlpha(m);
-  const vec2 mean = ggxMeanAlbedo(scene, alpha);
+BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal) {
+  const float muO = woLocal.z;
+  const vec2 mean = facetMeanAlbedo(scene, m);
   BaseShares shares;
-  shares.albedo = ggxAlbedo(scene, muO, alpha);
+  shares.albedo = facetAlbedo(scene, m, woLocal);
   shares.lost = lostBetweenFacets(shares.albedo);
   shares.meanLost = max(lostBetweenFacets(mean), 1e-6);
   const float kept = 1.0 - shares.meanLost;
   shares.multiple = m.metallic * multipleReflectance(metalReflectance(m, 1.0), vec3(1.0), kept) +
                     m.diffuse * multipleReflectance(m.glassF0, vec3(m.glassF90), kept);
   shares.coatMultiple = multipleReflectance(vec3(m.dielectricF0), vec3(m.dielectricF90), kept).x;
-  shares.coat = coatTransmissionAt(m, muO, shares.albedo, shares.coatMultiple, shares.lost);
-  shares.meanCoat = max(coatTransmission(m, mean, shares.coatMultiple, lostBetweenFacets(mean)), kMinCoatTransmission);
+  shares.coat = coatTransmissionAt(scene, m, muO, shares.albedo, shares.coatMultiple, shares.lost);
+  const vec2 meanCoat = coatMeanAlbedo(scene, m, mean);
+  shares.meanCoat =
+      max(coatTransmission(m, meanCoat, shares.coatMultiple, lostBetweenFacets(mean)), kMinCoatTransmission);
   shares.glass = GlassMultiple(0.0, 1.0, 1.0, 0.0);
 
   float facets = luminance(m.f0 * shares.albedo.x + m.f90 * shares.albedo.y);
@@ -362,9 +421,9 @@ BaseValue noScattering() { return BaseValue(vec3(0.0), vec3(0.0), 0.0); }
 // The lobes on wo's side: diffuse, multiple scattering, and the reflection by facets.
 BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
                              const vec3 woLocal, const vec3 wiLocal) {
-  const vec2 albedo = ggxAlbedo(scene, wiLocal.z, albedoAlpha(m));
+  const vec2 albedo = facetAlbedo(scene, m, wiLocal);
   const float lost = lostBetweenFacets(albedo);
-  const float entering = coatTransmissionAt(m, wiLocal.z, albedo, shares.coatMultiple, lost);
+  const float entering = coatTransmissionAt(scene, m, wiLocal.z, albedo, shares.coatMultiple, lost);
   const float cosine = kInvPi * wiLocal.z;
   BaseValue value;
   value.facets = vec3(0.0);
@@ -373,7 +432,7 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
                   shares.multiple * (shares.lost * lost / shares.meanLost * cosine);
   if (kHasTransmission && m.glass > 0.0) {
     const GlassMultiple glass = shares.glass;
-    const float continued = glass.lost * glassLossAt(scene, m, wiLocal.z, false) / glass.meanInFront;
+    const float continued = glass.lost * glassLossAt(scene, m, wiLocal, false) / glass.meanInFront;
     value.diffuse += m.glass * (1.0 - glass.transmitted) * continued * cosine;
   }
   value.pdfSolidAngle = max(1.0 - shares.facetProbability - shares.behindProbability, 0.0) * cosine;
@@ -382,7 +441,7 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
     const float twoCosine = length(sum); // 2 dot(wo, wm) of unit directions: the same from both sides to the last bit
     const vec3 wm = sum / twoCosine;
     const vec2 width = m.width;
-    const float shape = ggxD(wm, width) * ggxVisibility(woLocal, wiLocal, width) * wiLocal.z;
+    const float shape = facetD(wm, width) * facetVisibility(woLocal, wiLocal, width) * wiLocal.z;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
     value.facets = facet.reflected * shape;
     value.pdfSolidAngle += shares.facetProbability * facet.reflectedShare * pdfVisibleReflection(woLocal, wm, width);
@@ -397,19 +456,19 @@ BaseValue evaluateFacetTransmission(const MetallicRoughness m, const float proba
                                     const vec3 wiLocal) {
   const vec2 width = m.width;
   const vec3 above = vec3(wiLocal.xy, -wiLocal.z);
-  const float visibility = ggxVisibility(woLocal, above, width) * above.z;
+  const float visibility = facetVisibility(woLocal, above, width) * above.z;
   if (m.thinWalled) {
     const vec3 sum = woLocal + above;
     const float twoCosine = length(sum);
     const vec3 wm = sum / twoCosine;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
-    return BaseValue(facet.transmitted * (ggxD(wm, width) * visibility), vec3(0.0),
+    return BaseValue(facet.transmitted * (facetD(wm, width) * visibility), vec3(0.0),
                      probability * (1.0 - facet.reflectedShare) * pdfVisibleReflection(woLocal, wm, width));
   }
   const RefractingFacet refracting = refractingFacet(woLocal, wiLocal, m.eta);
   if (!refracting.valid) return noScattering();
   const FacetScattering facet = scatterAtFacet(m, refracting.cosO);
-  const float shape = 4.0 * ggxD(refracting.wm, width) * visibility * refracting.cosO * refracting.jacobian;
+  const float shape = 4.0 * facetD(refracting.wm, width) * visibility * refracting.cosO * refracting.jacobian;
   const float density = pdfVisibleNormal(woLocal, refracting.wm, width) * m.eta * m.eta * refracting.jacobian;
   return BaseValue(facet.transmitted * shape, vec3(0.0), probability * (1.0 - facet.reflectedShare) * density);
 }
@@ -431,12 +490,13 @@ BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, 
     value = evaluateFacetTransmission(m, shares.facetProbability, woLocal, wiLocal);
     const GlassMultiple glass = shares.glass;
     const float eta = refractedEta(m);
-    const float continued = glass.lost * glassLossAt(scene, m, -wiLocal.z, true) / (glass.meanBehind * eta * eta);
+    const float continued = glass.lost * glassLossAt(scene, m, wiLocal, true) / (glass.meanBehind * eta * eta);
     value.diffuse = m.baseColor * (m.glass * glass.transmitted * continued * cosine);
   }
   if (kHasDiffuseTransmission && m.behind.share > 0.0) { // both faces are coated alike
-    const vec2 albedo = ggxAlbedo(scene, -wiLocal.z, albedoAlpha(m));
-    const float leaving = coatTransmissionAt(m, -wiLocal.z, albedo, shares.coatMultiple, lostBetweenFacets(albedo));
+    const vec2 albedo = facetAlbedo(scene, m, wiLocal);
+    const float leaving =
+        coatTransmissionAt(scene, m, -wiLocal.z, albedo, shares.coatMultiple, lostBetweenFacets(albedo));
     value.diffuse += crossingReflectance(m.behind) * (m.diffuse * (shares.coat * leaving / shares.meanCoat) * cosine);
   }
   value.pdfSolidAngle += shares.behindProbability * cosine;
@@ -457,7 +517,7 @@ BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const ve
   const bool transmitted = kHasFarSide && wiLocal.z < 0.0;
   if (min(woLocal.z, transmitted ? -wiLocal.z : wiLocal.z) < kMinCosine) return noScattering();
   if (kHasSpecular) {
-    const BaseShares shares = baseShares(scene, m, woLocal.z);
+    const BaseShares shares = baseShares(scene, m, woLocal);
     if (transmitted) return evaluateTransmission(scene, m, shares, woLocal, wiLocal);
     return evaluateReflection(scene, m, shares, woLocal, wiLocal);
   }
@@ -503,7 +563,7 @@ BsdfSample sampleFacetTransmission(const SceneRef scene, const MetallicRoughness
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
-BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const float uLobe,
+BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, float uLobe,
                       const vec2 u) {
   if (woLocal.z < kMinCosine) return absorbed();
   if (!kHasSpecular) {
@@ -512,7 +572,7 @@ BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec
     if (crosses) wi.z = -wi.z;
     return finishSample(wi, evaluateBase(scene, m, woLocal, wi), crosses ? m.behind.eta : 1.0);
   }
-  const BaseShares shares = baseShares(scene, m, woLocal.z);
+  const BaseShares shares = baseShares(scene, m, woLocal);
   vec3 wi;
   if (uLobe >= shares.facetProbability) {
     wi = sampleCosineHemisphere(u);
@@ -521,7 +581,8 @@ BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec
       return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), broadEta(m));
     }
   } else {
-    const vec3 wm = isMirror(m) ? vec3(0.0, 0.0, 1.0) : sampleVisibleNormal(woLocal, m.width, u);
+    vec3 wm = vec3(0.0, 0.0, 1.0);
+    if (!isMirror(m)) wm = sampleVisibleNormal(woLocal, m.width, u, shares.facetProbability, uLobe);
     const float cosine = dot(woLocal, wm);
     const FacetScattering facet = scatterAtFacet(m, cosine);
     if (kHasTransmission && uLobe >= shares.facetProbability * facet.reflectedShare) {

@@ -58,7 +58,7 @@ LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woL
   LayersAtWo at;
   at.base = LayerBase(1.0, 0.0, 0.0, 1.0);
   if (kHasSpecular) {
-    const float mean = baseShares(scene, bsdf.base, woLocal.z).meanCoat;
+    const float mean = baseShares(scene, bsdf.base, woLocal).meanCoat;
     at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90, mean);
   }
   float reachable = 1.0; // share of the light that comes down to the layer at hand
@@ -223,7 +223,7 @@ BsdfSample sampleLayered(const SceneRef scene, const SurfaceBsdf bsdf, const Lay
                          float uLobe, const vec2 u) {
   BsdfSample drawn = absorbed();
   if (uLobe < at.coatProbability) {
-    drawn.wiLocal = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u));
+    drawn.wiLocal = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u, uLobe / at.coatProbability));
     if (drawn.wiLocal.z < kMinCosine) return drawn;
     if (!coatIsMirror(bsdf.coat)) return weighLayered(scene, bsdf, at, woLocal, drawn);
     drawn.weight = vec3(bsdf.coat.amount * coatReflectance(at.woCoat.z) / at.coatProbability);

@@ -21,6 +21,19 @@ ISOPHOTE_CONST float kMinCoatTransmission = 1e-3f;
 ISOPHOTE_CONST uint kGgxAlbedoMuCount = 64u;
 ISOPHOTE_CONST uint kGgxAlbedoRoughnessCount = 64u;
 ISOPHOTE_CONST uint kGgxAlbedoMeans = kGgxAlbedoMuCount * kGgxAlbedoRoughnessCount;
+ISOPHOTE_CONST uint kGgxAlbedoSize = kGgxAlbedoMeans + kGgxAlbedoRoughnessCount;
+
+// Tables of (A, B) for anisotropic facets, see bsdf/anisotropic_albedo.glsl; one for each kind of surface, behind each
+// other. Item 0 is the range of roughness, item 1 that of strength; then follow planes of one roughness and strength,
+// kAnisotropyRoughnessCount (or 1 where the range is a point) a strength, kAnisotropyStrengthCount (or 1) strengths. A
+// plane has kAnisotropyAzimuthCount rows of kAnisotropyMuCount columns and the mean over the hemisphere.
+ISOPHOTE_CONST uint kAnisotropyMuCount = 64u;
+ISOPHOTE_CONST uint kAnisotropyAzimuthCount = 12u;
+ISOPHOTE_CONST uint kAnisotropyRoughnessCount = 16u;
+ISOPHOTE_CONST uint kAnisotropyStrengthCount = 12u;
+ISOPHOTE_CONST uint kAnisotropyHeader = 2u;
+ISOPHOTE_CONST uint kAnisotropyMean = kAnisotropyMuCount * kAnisotropyAzimuthCount;
+ISOPHOTE_CONST uint kAnisotropyPlane = kAnisotropyMean + 1u;
 
 // Normal reflectance of the clearcoat, index 1.5 (KHR_materials_clearcoat).
 ISOPHOTE_CONST float kClearcoatF0 = 0.04f;

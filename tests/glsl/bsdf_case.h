@@ -17,7 +17,10 @@ struct BsdfCase {
   uint thinWalled;
   float diffuseTransmission;
   vec3 diffuseTransmissionColor;
-  uint glassLoss; // set by probeBsdf
+  float anisotropy;
+  uint glassLoss; // where its tables begin; set by probeBsdf
+  uint exactAlbedo;
+  uint anisotropicAlbedo;
   vec3 wo;
   vec3 wi;
   float uLobe;

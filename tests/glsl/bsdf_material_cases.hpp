@@ -10,6 +10,7 @@
 #include "glsl/bsdf_case.h"
 #include "glsl/bsdf_scene.hpp"
 #include "oracle/bsdf_metallic_roughness.hpp"
+#include "render/setting_ids.hpp"
 #include "shared/bsdf_constants.h"
 #include "shared/geometry_types.h"
 #include "support/probe.hpp"
@@ -91,17 +92,42 @@ inline std::string describe(const gpu::BsdfCase& c) {
          " cosines " + std::to_string(c.wo.z) + ", " + std::to_string(c.wi.z);
 }
 
+/// Where `value` is in the list, appended if it is new.
+template <class T> uint32_t placeOf(std::vector<T>& list, const T& value) {
+  const auto found = std::find(list.begin(), list.end(), value);
+  if (found != list.end()) return static_cast<uint32_t>(found - list.begin());
+  list.push_back(value);
+  return static_cast<uint32_t>(list.size() - 1);
+}
+
+/// Names the tables of the cases, and returns what they are to hold.
+inline TableNeeds nameTables(std::vector<gpu::BsdfCase>& cases) {
+  TableNeeds needs{.facets = true};
+  std::vector<float> glass;
+  for (gpu::BsdfCase& c : cases) {
+    const bool rough = c.roughness * c.roughness >= gpu::kMirrorAlpha;
+    c.exactAlbedo = (placeOf(needs.opaqueIors, c.ior) + 1) * gpu::kGgxAlbedoSize;
+    c.glassLoss = gpu::kInvalidIndex;
+    if (c.transmission > 0 && c.thinWalled == 0 && rough) c.glassLoss = placeOf(glass, c.ior) * 2 * gpu::kGlassLossHalf;
+    if (c.anisotropy > 0) {
+      const AnisotropicSurface surface{glm::vec2(c.roughness), glm::vec2(c.anisotropy)};
+      c.anisotropicAlbedo = placeOf(needs.anisotropic, surface) * anisotropicAlbedoSize(surface);
+    }
+  }
+  for (const float ior : glass) needs.glass.push_back({.ior = ior});
+  return needs;
+}
+
 inline std::vector<gpu::BsdfResult> probeBsdf(std::vector<gpu::BsdfCase> cases,
                                               std::span<const gpu::SpecConstant> constants = {}) {
-  const auto isRoughGlass = [](const gpu::BsdfCase& c) {
-    return c.transmission > 0 && c.thinWalled == 0 && c.roughness * c.roughness >= gpu::kMirrorAlpha;
-  };
-  std::vector<float> iors;
-  for (const gpu::BsdfCase& c : cases) {
-    if (isRoughGlass(c) && std::find(iors.begin(), iors.end(), c.ior) == iors.end()) iors.push_back(c.ior);
+  EstimatorSettings settings;
+  for (const gpu::SpecConstant& constant : constants) {
+    if (constant.id == setting_id::kNdf) settings.ndf = static_cast<Ndf>(constant.value);
+    if (constant.id == setting_id::kMasking) settings.masking = static_cast<Masking>(constant.value);
+    if (constant.id == setting_id::kFresnel) settings.fresnel = static_cast<Fresnel>(constant.value);
   }
-  const BsdfScene scene(iors);
-  for (gpu::BsdfCase& c : cases) c.glassLoss = isRoughGlass(c) ? scene.glassLoss(c.ior) : gpu::kInvalidIndex;
+  const TableNeeds needs = nameTables(cases);
+  const BsdfScene scene(needs, settings);
   return runProbe<gpu::BsdfCase, gpu::BsdfResult>(test_glsl_kernels::kernelSource("bsdf_probe"), cases, scene.address(),
                                                   constants);
 }

@@ -10,6 +10,8 @@ BsdfResult probe(const BsdfCase c) {
   SceneRef scene = SceneRef(pc.extra);
   SurfaceBsdf m =
       bareSurface(metallicRoughness(c.baseColor, c.metallic, c.roughness, c.ior, c.specular, c.specularColor));
+  setExactAlbedo(m.base, c.ior, c.exactAlbedo);
+  setAnisotropy(m.base, c.anisotropy, c.anisotropicAlbedo);
   const bool thinWalled = c.thinWalled != 0u;
   if (c.transmission > 0.0) {
     setTransmission(m.base, c.transmission, relativeIor(c.ior, thinWalled || c.backFace == 0u), thinWalled);

@@ -20,9 +20,13 @@ constexpr DirectionSampling kTechniques[] = {DirectionSampling::Lobes,          
                                              DirectionSampling::Cosine,         DirectionSampling::Ndf,
                                              DirectionSampling::VisibleNormals, DirectionSampling::Mixture};
 
-std::vector<DirectionResult> probe(const std::vector<DirectionCase>& cases, DirectionSampling technique) {
-  const test::BsdfScene scene;
-  const gpu::SpecConstant constants[] = {{setting_id::kDirectionSampling, static_cast<uint32_t>(technique)}};
+std::vector<DirectionResult> probe(const std::vector<DirectionCase>& cases, DirectionSampling technique,
+                                   Ndf ndf = Ndf::Ggx) {
+  EstimatorSettings settings;
+  settings.ndf = ndf;
+  const test::BsdfScene scene({.facets = true}, settings);
+  const gpu::SpecConstant constants[] = {{setting_id::kDirectionSampling, static_cast<uint32_t>(technique)},
+                                         {setting_id::kNdf, static_cast<uint32_t>(ndf)}};
   return test::runProbe<DirectionCase, DirectionResult>(test_glsl_kernels::kernelSource("direction_sampling_probe"),
                                                         cases, scene.address(), constants);
 }
@@ -129,10 +133,44 @@ TEST(DirectionSampling, DensitiesAreThoseOfTheTextbook) {
   }
 }
 
-// Significance 1e-3 over all configurations (Sidak). 4e4 samples in 240 bins: a density off by 5% root mean square is
-// rejected; its integral and the absorbed share make 1 within 1e-2.
+namespace {
+
+constexpr size_t kDraws = 40000;
+
+/// 4e4 samples in 240 bins: a density off by 5% root mean square is rejected; its integral and the absorbed share make
+/// 1 within 1e-2.
+void expectSamplesFollowDensity(const DirectionCase& base, DirectionSampling technique, Ndf ndf, uint32_t seed,
+                                double significance) {
+  std::vector<DirectionCase> cases = draws(base, kDraws, seed);
+  for (int i = 0; i < SphereGrid::kHeights * SphereGrid::kNodes; ++i) {
+    for (int j = 0; j < SphereGrid::kTurns * SphereGrid::kNodes; ++j) {
+      cases.push_back(base);
+      cases.back().wi = glm::vec3(SphereGrid::node(i, j));
+    }
+  }
+  const std::vector<DirectionResult> results = probe(cases, technique, ndf);
+  std::vector<uint64_t> observed(SphereGrid::kBins + 1);
+  std::vector<double> expected(SphereGrid::kBins + 1);
+  for (size_t i = 0; i < kDraws; ++i) {
+    const bool isValid = (results[i].flags & gpu::kDirectionValid) != 0;
+    ++observed[isValid ? SphereGrid::binOf(glm::dvec3(results[i].sampledWi)) : SphereGrid::kBins];
+  }
+  double mass = 0;
+  for (size_t i = kDraws; i < cases.size(); ++i) {
+    const double probability = double(results[i].pdf) * SphereGrid::kNodeSolidAngle;
+    expected[SphereGrid::binOf(glm::dvec3(cases[i].wi))] += double(kDraws) * probability;
+    mass += probability;
+  }
+  const double absorbed = double(observed[SphereGrid::kBins]) / double(kDraws);
+  EXPECT_NEAR(mass + absorbed, 1, 1e-2);
+  expected[SphereGrid::kBins] = double(kDraws) * std::max(1 - mass, 0.0);
+  EXPECT_GT(test::chiSquareTest(observed, expected).p, significance);
+}
+
+} // namespace
+
+// Significance 1e-3 over all configurations (Sidak).
 TEST(DirectionSampling, SamplesFollowTheDensityWhichIntegratesToOne) {
-  constexpr size_t kCount = 40000;
   struct Surface {
     const char* name;
     DirectionCase material;
@@ -143,36 +181,28 @@ TEST(DirectionSampling, SamplesFollowTheDensityWhichIntegratesToOne) {
   uint32_t seed = 1;
   for (const DirectionSampling technique : kTechniques) {
     for (const Surface& surface : surfaces) {
-      for (const double cosine : {0.5}) {
-        SCOPED_TRACE(testing::Message() << surface.name << ", technique " << uint32_t(technique) << ", " << cosine);
-        DirectionCase base = surface.material;
-        base.wo = test::directionOf(cosine, 0.6);
-        std::vector<DirectionCase> cases = draws(base, kCount, seed++);
-        for (int i = 0; i < SphereGrid::kHeights * SphereGrid::kNodes; ++i) {
-          for (int j = 0; j < SphereGrid::kTurns * SphereGrid::kNodes; ++j) {
-            cases.push_back(base);
-            cases.back().wi = glm::vec3(SphereGrid::node(i, j));
-          }
-        }
-        const std::vector<DirectionResult> results = probe(cases, technique);
-        std::vector<uint64_t> observed(SphereGrid::kBins + 1);
-        std::vector<double> expected(SphereGrid::kBins + 1);
-        for (size_t i = 0; i < kCount; ++i) {
-          const bool isValid = (results[i].flags & gpu::kDirectionValid) != 0;
-          ++observed[isValid ? SphereGrid::binOf(glm::dvec3(results[i].sampledWi)) : SphereGrid::kBins];
-        }
-        double mass = 0;
-        for (size_t i = kCount; i < cases.size(); ++i) {
-          const double probability = double(results[i].pdf) * SphereGrid::kNodeSolidAngle;
-          expected[SphereGrid::binOf(glm::dvec3(cases[i].wi))] += double(kCount) * probability;
-          mass += probability;
-        }
-        const double absorbed = double(observed[SphereGrid::kBins]) / double(kCount);
-        EXPECT_NEAR(mass + absorbed, 1, 1e-2);
-        expected[SphereGrid::kBins] = double(kCount) * std::max(1 - mass, 0.0);
-        EXPECT_GT(test::chiSquareTest(observed, expected).p, significance);
-      }
+      SCOPED_TRACE(testing::Message() << surface.name << ", technique " << uint32_t(technique));
+      DirectionCase base = surface.material;
+      base.wo = test::directionOf(0.5, 0.6);
+      expectSamplesFollowDensity(base, technique, Ndf::Ggx, seed++, significance);
     }
+  }
+}
+
+// By lobes too: the choice between a facet and its mirror image leaves a uniform number for that between reflection and
+// transmission. Half glass, so that every choice is made.
+TEST(DirectionSampling, SamplesOfOtherFacetsFollowTheDensity) {
+  const std::pair<Ndf, DirectionSampling> choices[] = {{Ndf::BlinnPhong, DirectionSampling::Lobes},
+                                                       {Ndf::BlinnPhong, DirectionSampling::Ndf},
+                                                       {Ndf::Beckmann, DirectionSampling::VisibleNormals},
+                                                       {Ndf::Beckmann, DirectionSampling::Mixture}};
+  const double significance = test::sidak(1e-3, std::size(choices));
+  uint32_t seed = 50;
+  for (const auto& [ndf, technique] : choices) {
+    SCOPED_TRACE(testing::Message() << "ndf " << uint32_t(ndf) << ", technique " << uint32_t(technique));
+    DirectionCase base = material(0, 0.5f, 0.5f);
+    base.wo = test::directionOf(0.3, 0.6);
+    expectSamplesFollowDensity(base, technique, ndf, seed++, significance);
   }
 }
 

@@ -9,7 +9,7 @@
 LayersResult probe(const LayersCase c) {
   SceneRef scene = SceneRef(pc.extra);
   SurfaceBsdf bsdf = bareSurface(metallicRoughness(c.baseColor, c.metallic, c.roughness, 1.5, c.specular, vec3(1.0)));
-  setAnisotropy(bsdf.base, c.anisotropy);
+  setAnisotropy(bsdf.base, c.anisotropy, kInvalidIndex);
   if (c.conductorN.x > 0.0) setConductor(bsdf.base, c.conductorN, c.conductorK);
   setIridescence(bsdf.base, Iridescence(c.film, c.filmIor, c.filmThickness));
   if (c.diffuseTransmission > 0.0) {

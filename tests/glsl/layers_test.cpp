@@ -21,27 +21,8 @@ using std::numbers::pi;
 
 namespace {
 
-class LayersScene {
-public:
-  LayersScene()
-      : ggx_(gpu::uploadBuffer(test::gpuDevice(), ggxAlbedoTable(), "test.ggxAlbedo")),
-        coat_(gpu::uploadBuffer(test::gpuDevice(), clearcoatTable(), "test.clearcoat")),
-        sheen_(gpu::uploadBuffer(test::gpuDevice(), sheenTable(), "test.sheen")) {
-    const gpu::SceneView view{
-        .ggxAlbedo = ggx_.address(), .clearcoatTable = coat_.address(), .sheenTable = sheen_.address()};
-    view_ = gpu::uploadBuffer(test::gpuDevice(), std::vector{view}, "test.scene");
-  }
-  [[nodiscard]] uint64_t address() const { return view_.address(); }
-
-private:
-  gpu::Buffer ggx_;
-  gpu::Buffer coat_;
-  gpu::Buffer sheen_;
-  gpu::Buffer view_;
-};
-
 std::vector<LayersResult> probeLayers(const std::vector<LayersCase>& cases) {
-  const LayersScene scene;
+  const test::BsdfScene scene({.facets = true, .clearcoat = true, .sheen = true});
   return test::runProbe<LayersCase, LayersResult>(test_glsl_kernels::kernelSource("layers_probe"), cases,
                                                   scene.address());
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/bsdf_facets.hpp"
 #include "oracle/bsdf_ggx.hpp"
 #include "shared/bsdf_constants.h"
 
@@ -119,5 +120,37 @@ TEST(GgxAlbedo, OracleQuadratureMatchesIntegrationOverDirections) {
     const glm::dvec2 expected = oracle::quadratureAlbedo(mu, alpha, 400);
     EXPECT_NEAR(sum.x, expected.x, 5e-5) << mu << " " << alpha;
     EXPECT_NEAR(sum.y, expected.y, 5e-5) << mu << " " << alpha;
+  }
+}
+
+// Tables of the other distributions, masking and reflectance, at their nodes and between, by normals of D cos instead
+// of GGX's visible ones.
+TEST(GgxAlbedo, TablesOfAllFacetsMatchQuadrature) {
+  struct Choice {
+    FacetModel model;
+    float ior;
+  };
+  const Choice choices[] = {{{Ndf::Ggx, Masking::Separable}, 0},
+                            {{Ndf::Beckmann, Masking::Correlated}, 1.5f},
+                            {{Ndf::BlinnPhong, Masking::Correlated}, 0},
+                            {{Ndf::BlinnPhong, Masking::Separable}, 2.0f}};
+  for (const Choice& choice : choices) {
+    const std::vector<glm::vec2>& table = exactAlbedoTable(choice.model, choice.ior);
+    ASSERT_EQ(table.size(), gpu::kGgxAlbedoSize);
+    double worst = 0;
+    for (const uint32_t row : {13u, 32u, 45u, 63u}) {
+      for (const uint32_t column : {15u, 32u, 50u, 63u}) {
+        const double roughness = row / double(gpu::kGgxAlbedoRoughnessCount - 1);
+        const double root = column / double(gpu::kGgxAlbedoMuCount - 1);
+        const double mu = root * root;
+        const glm::dvec2 expected =
+            oracle::facetAlbedo({choice.model.ndf, choice.model.masking}, {std::sqrt(1 - mu * mu), 0, mu},
+                                glm::dvec2(roughness * roughness), 120, double(choice.ior));
+        const glm::dvec2 error = glm::abs(glm::dvec2(table[row * gpu::kGgxAlbedoMuCount + column]) - expected);
+        worst = std::max({worst, error.x, error.y});
+      }
+    }
+    EXPECT_LT(worst, 1.5e-3) << uint32_t(choice.model.ndf) << " " << choice.ior;
+    RecordProperty("worst" + std::to_string(&choice - choices), std::to_string(worst));
   }
 }

@@ -29,7 +29,7 @@ glm::dvec2 lookUp(const std::vector<glm::vec2>& table, uint32_t half, double mu,
 // Over a low-discrepancy set in sqrt(mu) and roughness, against another quadrature with another sampling of normals.
 TEST(GlassLoss, InterpolationMatchesQuadrature) {
   for (const double ior : {1.1, 1.5, 2.4}) {
-    const auto table = glassLossTable(ior);
+    const auto table = glassLossTable({.ior = float(ior)});
     for (const uint32_t half : {0u, 1u}) {
       const double eta = half == 0 ? ior : 1 / ior;
       double inner = 0, grazing = 0;

@@ -86,7 +86,7 @@ double sumOfPmf(const PackedScene& packed) {
 TEST(PackScene, AnEmptySceneHasEmptyArrays) {
   const PackedScene packed = packScene({});
   EXPECT_TRUE(packed.nodes.empty() && packed.triangles.empty() && packed.instances.empty());
-  EXPECT_TRUE(packed.lightAlias.empty() && packed.materials.empty() && packed.ggxAlbedo.empty());
+  EXPECT_TRUE(packed.lightAlias.empty() && packed.materials.empty() && !packed.tables.facets);
   EXPECT_EQ(packed.worldRadius, 1);
   EXPECT_EQ(packed.emitterScale, 1);
   EXPECT_EQ(packed.features, FeatureSet());
@@ -292,9 +292,9 @@ TEST(PackScene, OnlyTrianglesThatCanBeSeenThroughAreTested) {
 
 TEST(PackScene, GgxTableComesWithSpecularMaterialsOnly) {
   Scene scene = sceneOf({square()});
-  EXPECT_FALSE(packScene(scene).ggxAlbedo.empty());
+  EXPECT_TRUE(packScene(scene).tables.facets);
   scene.materials[0].metallic = scene.materials[0].specular = 0;
-  EXPECT_TRUE(packScene(scene).ggxAlbedo.empty());
+  EXPECT_FALSE(packScene(scene).tables.facets);
 }
 
 TEST(PackScene, LightIndicesFindTheirTriangles) {

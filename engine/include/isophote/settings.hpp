@@ -20,6 +20,13 @@ enum class DirectionSampling : uint32_t { Lobes, Uniform, Cosine, Ndf, VisibleNo
 /// (biased).
 enum class ShadowTransmission : uint32_t { Off, Straight };
 enum class MisHeuristic : uint32_t { Balance, Power };
+/// Distribution of microfacet normals; alpha = roughness^2 is its width in all three.
+enum class Ndf : uint32_t { Ggx, Beckmann, BlinnPhong };
+/// Smith's masking and shadowing of microfacets, correlated by their height or as if independent.
+enum class Masking : uint32_t { Correlated, Separable };
+/// Reflectance of dielectrics: exact for glass and Schlick's approximation for opaque ones, as glTF has it; or one of
+/// both throughout.
+enum class Fresnel : uint32_t { Gltf, Exact, Schlick };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
 
@@ -36,6 +43,9 @@ struct EstimatorSettings {
   ShadowTransmission shadowTransmission = ShadowTransmission::Off;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;
+  Ndf ndf = Ndf::Ggx;
+  Masking masking = Masking::Correlated;
+  Fresnel fresnel = Fresnel::Gltf;
   bool multipleScattering = true; ///< between the facets of rough surfaces; false loses their light
   uint64_t seed = 0;
 };

@@ -16,6 +16,7 @@
 #include "shared/geometry_types.h"
 #include "upload/filter_table.hpp"
 #include "upload/gpu_scene.hpp"
+#include "upload/scattering_tables.hpp"
 
 namespace isophote {
 namespace {
@@ -45,6 +46,8 @@ struct PathTracer::Impl {
   uint32_t workgroupSize;
   Clock::time_point constructed = Clock::now();
 
+  ScatteringTables tables;
+  gpu::Buffer sceneView; ///< the scene's, with the tables
   /// One white texel, bound where an all-features kernel runs on a scene without textures.
   gpu::TextureArray placeholderTextures;
   std::optional<WavefrontKernels> kernels;
@@ -65,11 +68,13 @@ struct PathTracer::Impl {
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
       : device(d), scene(s), estimator(e), execution(x),
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
+        tables(d, s.impl().tables, e), sceneView(uploadView()),
         commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
 
   [[nodiscard]] const gpu::TextureArray& textures() const {
     return placeholderTextures.size() > 0 ? placeholderTextures : scene.impl().textures;
   }
+  [[nodiscard]] gpu::Buffer uploadView() const;
   void makeKernels(const Camera& camera);
   void writeRenderView(const Camera& camera, SampleRange range);
   void findCameraMedia();
@@ -92,6 +97,12 @@ struct PathTracer::Impl {
   }
   [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const;
 };
+
+gpu::Buffer PathTracer::Impl::uploadView() const {
+  gpu::SceneView view = scene.impl().viewContents;
+  tables.writeTo(view);
+  return gpu::uploadBuffer(device, std::vector{view}, "render.scene");
+}
 
 // The camera's kind is a feature too, so kernels wait for the first camera; a later one of another kind remakes them.
 void PathTracer::Impl::makeKernels(const Camera& camera) {
@@ -155,7 +166,7 @@ void PathTracer::Impl::findCameraMedia() {
 }
 
 gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
-  return {.scene = scene.impl().view.address(),
+  return {.scene = sceneView.address(),
           .render = pool->render.address(),
           .wave = pool->wave.address(),
           .queues = pool->queues.address(),
@@ -331,6 +342,7 @@ RenderStatistics PathTracer::statistics() const {
   statistics.bytesPerPath = impl_->pool->bytesPerPath();
   statistics.pathPoolSize = impl_->pool->capacity;
   statistics.buffers = impl_->pool->buffers();
+  for (const gpu::Buffer& table : impl_->tables.buffers()) statistics.buffers.push_back({table.name(), table.bytes()});
   for (const gpu::Kernel* kernel : impl_->kernels->all()) {
     KernelStatistics entry{.name = kernel->name(),
                            .compileMilliseconds = kernel->compileMilliseconds(),

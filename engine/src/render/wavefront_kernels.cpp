@@ -36,6 +36,9 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   constants.push_back({setting_id::kLightSelection, static_cast<uint32_t>(settings.lightSelection)});
   constants.push_back({setting_id::kTriangleLightSampling, static_cast<uint32_t>(settings.triangleLightSampling)});
   constants.push_back({setting_id::kDirectionSampling, static_cast<uint32_t>(settings.directionSampling)});
+  constants.push_back({setting_id::kNdf, static_cast<uint32_t>(settings.ndf)});
+  constants.push_back({setting_id::kMasking, static_cast<uint32_t>(settings.masking)});
+  constants.push_back({setting_id::kFresnel, static_cast<uint32_t>(settings.fresnel)});
   constants.push_back({setting_id::kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
   constants.push_back({setting_id::kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({setting_id::kShadowTransmission, static_cast<uint32_t>(settings.shadowTransmission)});

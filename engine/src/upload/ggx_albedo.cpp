@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "shared/bsdf_constants.h"
 #include "upload/cosine_mean.hpp"
+#include "upload/dielectric.hpp"
+#include "upload/memo.hpp"
 
 namespace isophote {
 namespace {
@@ -17,42 +19,26 @@ constexpr int kAzimuthCount = 24; // over half a turn: the integrand is symmetri
 
 double pow5(double x) { return x * x * x * x * x; }
 
-std::array<glm::dvec2, kAzimuthCount> azimuths() {
-  std::array<glm::dvec2, kAzimuthCount> result;
-  for (int j = 0; j < kAzimuthCount; ++j) {
-    const double phi = std::numbers::pi * (j + 0.5) / kAzimuthCount;
-    result[static_cast<size_t>(j)] = {std::cos(phi), std::sin(phi)};
-  }
-  return result;
+/// How far the reflectance at a cosine has come from f0 to f90.
+double grazingShare(double cosine, double exactIor) {
+  if (exactIor < 1) return pow5(1 - cosine);
+  const double normal = (exactIor - 1) / (exactIor + 1);
+  return (dielectricReflectance(cosine, exactIor) - normal * normal) / (1 - normal * normal);
 }
 
-/// (A, B) at one point: the mean of G2 / G1 times the Fresnel weights over visible normals, which spherical caps turn
-/// into uniform numbers (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
-glm::dvec2 directionalAlbedo(double mu, double alpha) {
-  static const std::array<glm::dvec2, kAzimuthCount> directions = azimuths();
+/// (A, B) at one point.
+glm::dvec2 directionalAlbedo(const Facets& facets, double mu, double exactIor) {
   const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
-  const glm::dvec3 view = glm::normalize(glm::dvec3(alpha * wo.x, 0, wo.z));
-  const auto projectedLength = [alpha](double z) { return std::sqrt(alpha * alpha * (1 - z * z) + z * z); };
-  const double lengthO = projectedLength(mu);
+  const double lengthO = facets.projectedLength(wo);
   glm::dvec2 sum(0);
-  for (int i = 0; i < kHeightCount; ++i) {
-    // Quadratic in t: nodes crowd at flat normals, where wi sinks below the horizon.
-    const double t = (i + 0.5) / kHeightCount;
-    const double height = t * t * (1 + view.z); // above the cap's rim at z = -view.z
-    const double z = height - view.z;
-    const double radius = std::sqrt(std::max(0.0, 1 - z * z));
-    for (const glm::dvec2& direction : directions) {
-      const glm::dvec3 wm =
-          glm::normalize(glm::dvec3(alpha * (radius * direction.x + view.x), alpha * radius * direction.y, height));
-      const double cosine = wo.x * wm.x + wo.z * wm.z;
-      const double wiZ = 2 * cosine * wm.z - wo.z;
-      if (wiZ <= 0) continue;
-      const double weight = 2 * t * wiZ * (mu + lengthO) / (mu * projectedLength(wiZ) + wiZ * lengthO); // G2 / G1 dt
-      const double grazing = pow5(1 - std::min(cosine, 1.0));
-      sum += weight * glm::dvec2(1 - grazing, grazing);
-    }
-  }
-  return sum / double(kHeightCount * kAzimuthCount);
+  forVisibleNormals(facets, wo, {kHeightCount, kAzimuthCount, true},
+                    [&](const glm::dvec3& wm, double cosine, double weight) {
+                      const glm::dvec3 wi = 2 * cosine * wm - wo;
+                      if (wi.z <= 0) return;
+                      const double grazing = grazingShare(cosine, exactIor);
+                      sum += weight * facets.passage(wo, lengthO, wi) * glm::dvec2(1 - grazing, grazing);
+                    });
+  return sum;
 }
 
 double columnMu(uint32_t column) {
@@ -60,16 +46,18 @@ double columnMu(uint32_t column) {
   return root * root;
 }
 
-std::vector<glm::vec2> computeTable() {
+std::vector<glm::vec2> computeTable(const FacetModel& model, double exactIor) {
   std::vector<glm::vec2> table;
   std::vector<glm::vec2> means;
-  table.reserve(gpu::kGgxAlbedoMeans + gpu::kGgxAlbedoRoughnessCount);
+  table.reserve(gpu::kGgxAlbedoSize);
   for (uint32_t r = 0; r < gpu::kGgxAlbedoRoughnessCount; ++r) {
     const double roughness = r / double(gpu::kGgxAlbedoRoughnessCount - 1);
     std::array<glm::dvec2, gpu::kGgxAlbedoMuCount> row;
     for (uint32_t c = 0; c < gpu::kGgxAlbedoMuCount; ++c) {
       const double mu = columnMu(c);
-      row[c] = r == 0 ? glm::dvec2(1 - pow5(1 - mu), pow5(1 - mu)) : directionalAlbedo(mu, roughness * roughness);
+      const double mirror = grazingShare(mu, exactIor);
+      row[c] = r == 0 ? glm::dvec2(1 - mirror, mirror)
+                      : directionalAlbedo(Facets(model, glm::dvec2(roughness * roughness)), mu, exactIor);
       table.emplace_back(row[c]);
     }
     means.emplace_back(cosineMean(row));
@@ -80,9 +68,15 @@ std::vector<glm::vec2> computeTable() {
 
 } // namespace
 
-const std::vector<glm::vec2>& ggxAlbedoTable() {
-  static const std::vector<glm::vec2> table = computeTable();
-  return table;
+const std::vector<glm::vec2>& ggxAlbedoTable(const FacetModel& model) {
+  static Memo<FacetModel, std::vector<glm::vec2>> tables;
+  return tables.get(model, [&] { return computeTable(model, 0); });
+}
+
+const std::vector<glm::vec2>& exactAlbedoTable(const FacetModel& model, float ior) {
+  if (ior < 1) return ggxAlbedoTable(model);
+  static Memo<std::pair<FacetModel, float>, std::vector<glm::vec2>> tables;
+  return tables.get({model, ior}, [&] { return computeTable(model, double(ior)); });
 }
 
 } // namespace isophote

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <future>
-#include <numbers>
+#include <tuple>
 
 #include "shared/bsdf_constants.h"
 #include "upload/cosine_mean.hpp"
+#include "upload/dielectric.hpp"
+#include "upload/memo.hpp"
 
 namespace isophote {
 namespace {
@@ -18,69 +20,43 @@ constexpr int kAzimuthCount = 24; // over half a turn: the integrand is symmetri
 
 double square(double x) { return x * x; }
 
-/// Reflectance by the Fresnel equations, cosT the refracted cosine. Source: Born and Wolf 1999, section 1.5.2, eq. 21.
-double fresnel(double cosI, double cosT, double eta) {
-  const double s = (cosI - eta * cosT) / (cosI + eta * cosT);
-  const double p = (eta * cosI - cosT) / (eta * cosI + cosT);
-  return 0.5 * (s * s + p * p);
-}
-
-std::array<glm::dvec2, kAzimuthCount> azimuths() {
-  std::array<glm::dvec2, kAzimuthCount> result;
-  for (int j = 0; j < kAzimuthCount; ++j) {
-    const double phi = std::numbers::pi * (j + 0.5) / kAzimuthCount;
-    result[static_cast<size_t>(j)] = {std::cos(phi), std::sin(phi)};
-  }
-  return result;
-}
-
-/// 1 minus the mean over visible normals of what leaves to either side, as ggx_albedo.cpp integrates reflection.
-glm::dvec2 directionalLoss(double mu, double alpha, double eta) {
-  static const std::array<glm::dvec2, kAzimuthCount> directions = azimuths();
+/// 1 minus what leaves to either side after one scattering.
+glm::dvec2 directionalLoss(const Facets& facets, double mu, double eta, bool bySchlick) {
   const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
-  const glm::dvec3 view = glm::normalize(glm::dvec3(alpha * wo.x, 0, wo.z));
-  const auto projectedLength = [alpha](double z) { return std::sqrt(alpha * alpha * (1 - z * z) + z * z); };
-  const double lengthO = projectedLength(mu);
-  const auto kept = [&](double z) { // G2 / G1 of light that leaves at cosine z to the side it should
-    return z > 0 ? z * (mu + lengthO) / (mu * projectedLength(z) + z * lengthO) : 0.0;
+  const double lengthO = facets.projectedLength(wo);
+  const auto kept = [&](const glm::dvec3& wi, bool below) {
+    return (below ? -wi.z : wi.z) > 0 ? facets.passage(wo, lengthO, wi) : 0.0;
   };
   glm::dvec2 sum(0);
-  for (int i = 0; i < kHeightCount; ++i) {
-    const double t = (i + 0.5) / kHeightCount;
-    const double height = t * t * (1 + view.z);
-    const double z = height - view.z;
-    const double radius = std::sqrt(std::max(0.0, 1 - z * z));
-    for (const glm::dvec2& direction : directions) {
-      const glm::dvec3 wm =
-          glm::normalize(glm::dvec3(alpha * (radius * direction.x + view.x), alpha * radius * direction.y, height));
-      const double cosine = std::min(wo.x * wm.x + wo.z * wm.z, 1.0);
-      const double reflected = kept(2 * cosine * wm.z - mu);
-      const double squaredCosT = 1 - (1 - square(cosine)) / square(eta);
-      if (squaredCosT <= 0) {
-        sum += 2 * t * glm::dvec2(reflected);
-        continue;
-      }
-      const double cosT = std::sqrt(squaredCosT);
-      const double transmitted = kept(mu / eta - (cosine / eta - cosT) * wm.z);
-      const double reflectance = fresnel(cosine, cosT, eta);
-      sum += 2 * t * glm::dvec2(std::lerp(transmitted, reflected, reflectance), transmitted);
-    }
-  }
-  return glm::max(1.0 - sum / double(kHeightCount * kAzimuthCount), 0.0);
+  forVisibleNormals(
+      facets, wo, {kHeightCount, kAzimuthCount, true}, [&](const glm::dvec3& wm, double cosine, double weight) {
+        const double reflected = kept(2 * cosine * wm - wo, false);
+        const double squaredCosT = 1 - (1 - square(cosine)) / square(eta);
+        if (squaredCosT <= 0) {
+          sum += weight * glm::dvec2(reflected);
+          return;
+        }
+        const double transmitted = kept((cosine / eta - std::sqrt(squaredCosT)) * wm - wo / eta, true);
+        const double reflectance = bySchlick ? schlickReflectance(cosine, eta) : dielectricReflectance(cosine, eta);
+        sum += weight * glm::dvec2(std::lerp(transmitted, reflected, reflectance), transmitted);
+      });
+  return glm::max(1.0 - sum, 0.0);
 }
 
 /// One half of a table: from the side whose other side has the index eta, relative.
-std::vector<glm::vec2> lossFrom(double eta, glm::dvec2 used) {
+std::vector<glm::vec2> lossFrom(double eta, const GlassSurface& glass, const GlassModel& model) {
   std::vector<glm::vec2> values;
   std::vector<glm::vec2> means;
   for (uint32_t r = 0; r < gpu::kGlassLossRoughnessCount; ++r) {
     constexpr double kSpacing = 1.0 / (gpu::kGlassLossRoughnessCount - 1);
     const double roughness = r * kSpacing;
-    const bool skipped = r == 0 || roughness < used.x - kSpacing || roughness > used.y + kSpacing;
+    const bool skipped =
+        r == 0 || roughness < double(glass.roughness.x) - kSpacing || roughness > double(glass.roughness.y) + kSpacing;
+    const Facets facets(model.facets, glm::dvec2(std::max(square(roughness), double(gpu::kMirrorAlpha))));
     std::array<glm::dvec2, gpu::kGlassLossMuCount> row;
     for (uint32_t c = 0; c < gpu::kGlassLossMuCount; ++c) {
       const double mu = square(c / double(gpu::kGlassLossMuCount - 1));
-      row[c] = skipped ? glm::dvec2(0) : directionalLoss(mu, square(roughness), eta);
+      row[c] = skipped ? glm::dvec2(0) : directionalLoss(facets, mu, eta, model.bySchlick);
       values.emplace_back(row[c]);
     }
     means.emplace_back(cosineMean(row));
@@ -89,15 +65,21 @@ std::vector<glm::vec2> lossFrom(double eta, glm::dvec2 used) {
   return values;
 }
 
-} // namespace
-
-std::vector<glm::vec2> glassLossTable(double ior, glm::dvec2 roughness) {
-  const double index = std::clamp(ior, 1.0, 1024.0);
-  auto inside = std::async(std::launch::async, lossFrom, 1 / index, roughness);
-  std::vector<glm::vec2> table = lossFrom(index, roughness);
+std::vector<glm::vec2> computeTable(const GlassSurface& glass, const GlassModel& model) {
+  const double index = std::clamp(double(glass.ior), 1.0, 1024.0);
+  auto inside = std::async(std::launch::async, [&] { return lossFrom(1 / index, glass, model); });
+  std::vector<glm::vec2> table = lossFrom(index, glass, model);
   const std::vector<glm::vec2> half = inside.get();
   table.insert(table.end(), half.begin(), half.end());
   return table;
+}
+
+} // namespace
+
+const std::vector<glm::vec2>& glassLossTable(const GlassSurface& glass, const GlassModel& model) {
+  static Memo<std::tuple<float, float, float, FacetModel, bool>, std::vector<glm::vec2>> tables;
+  return tables.get({glass.ior, glass.roughness.x, glass.roughness.y, model.facets, model.bySchlick},
+                    [&] { return computeTable(glass, model); });
 }
 
 } // namespace isophote

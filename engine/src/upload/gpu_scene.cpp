@@ -56,10 +56,6 @@ std::vector<ArrayUpload> arrayUploads(const PackedScene& packed, gpu::SceneView&
       arrayUpload("scene.environmentPixels", packed.environmentPixels, view.environment.pixels),
       arrayUpload("scene.environmentMarginal", packed.environmentMarginal, view.environment.marginal),
       arrayUpload("scene.environmentConditional", packed.environmentConditional, view.environment.conditional),
-      arrayUpload("scene.ggxAlbedo", packed.ggxAlbedo, view.ggxAlbedo),
-      arrayUpload("scene.clearcoatTable", packed.clearcoatTable, view.clearcoatTable),
-      arrayUpload("scene.sheenTable", packed.sheenTable, view.sheenTable),
-      arrayUpload("scene.glassLoss", packed.glassLoss, view.glassLoss),
   };
   std::erase_if(all, [](const ArrayUpload& upload) { return upload.bytes.empty(); });
   return all;
@@ -155,6 +151,8 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : impl_(std::make_u
     impl_->buffers.push_back(std::move(buffer));
   }
   impl_->view = gpu::uploadBuffer(device, std::vector<gpu::SceneView>{view}, "scene.view");
+  impl_->viewContents = view;
+  impl_->tables = packed.tables;
   statistics.buffers.push_back({"scene.view", impl_->view.bytes()});
   impl_->textures = uploadTextures(device, scene, packed.textures);
   statistics.textureBytes = impl_->textures.bytes();

@@ -9,12 +9,16 @@
 #include "gpu/buffer.hpp"
 #include "gpu/texture_array.hpp"
 #include "isophote/gpu_scene.hpp"
+#include "shared/scene_view.h"
+#include "upload/scattering_tables.hpp"
 
 namespace isophote {
 
 struct GpuScene::Impl {
   std::vector<gpu::Buffer> buffers; ///< those that exist; `view` holds their addresses
-  gpu::Buffer view;                 ///< one gpu::SceneView
+  gpu::Buffer view;                 ///< one gpu::SceneView, without the tables of scattering
+  gpu::SceneView viewContents{};
+  TableNeeds tables; ///< which a renderer computes for its settings
   gpu::TextureArray textures;
   FeatureSet features;
   SceneStatistics statistics;

@@ -10,6 +10,7 @@
 
 #include "shared/bsdf_constants.h"
 #include "upload/ggx_albedo.hpp"
+#include "upload/memo.hpp"
 
 namespace isophote {
 namespace {
@@ -42,14 +43,15 @@ double mean(const Row& row) {
 }
 
 /// (A, B) of GGX at one roughness, from the device's own table.
-std::array<Row, 2> ggxRows(double roughness) {
+std::array<Row, 2> ggxRows(const FacetModel& model, double roughness) {
   static_assert(kMuCount == gpu::kGgxAlbedoMuCount, "the nodes are shared");
   const double position = roughness * (gpu::kGgxAlbedoRoughnessCount - 1);
   const uint32_t r = std::min(static_cast<uint32_t>(position), gpu::kGgxAlbedoRoughnessCount - 2);
+  const std::vector<glm::vec2>& table = ggxAlbedoTable(model);
   std::array<Row, 2> rows;
   for (uint32_t c = 0; c < kMuCount; ++c) {
-    const glm::dvec2 low(ggxAlbedoTable()[r * kMuCount + c]);
-    const glm::dvec2 high(ggxAlbedoTable()[(r + 1) * kMuCount + c]);
+    const glm::dvec2 low(table[r * kMuCount + c]);
+    const glm::dvec2 high(table[(r + 1) * kMuCount + c]);
     const glm::dvec2 value = glm::mix(low, high, position - r);
     rows[0][c] = value.x;
     rows[1][c] = value.y;
@@ -72,40 +74,26 @@ void spread(Row& shares, double mu, double weight) {
   shares[c + 1] += weight * (position - c);
 }
 
-/// One row by visible normals, as in ggx_albedo.cpp: the weight of a normal is G2 / G1 of its reflection.
-Row reflectedShares(double mu, double alpha) {
-  constexpr int kHeightCount = 32;
-  constexpr int kAzimuthCount = 16;
+/// One row by visible normals, as in ggx_albedo.cpp.
+Row reflectedShares(const Facets& facets, double mu) {
   Row shares{};
   const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
-  const glm::dvec3 view = glm::normalize(glm::dvec3(alpha * wo.x, 0, wo.z));
-  const auto projectedLength = [alpha](double z) { return std::sqrt(alpha * alpha * (1 - z * z) + z * z); };
-  const double lengthO = projectedLength(mu);
-  for (int i = 0; i < kHeightCount; ++i) {
-    const double t = (i + 0.5) / kHeightCount;
-    const double height = t * t * (1 + view.z);
-    const double z = height - view.z;
-    const double radius = std::sqrt(std::max(0.0, 1 - z * z));
-    for (int j = 0; j < kAzimuthCount; ++j) {
-      const double phi = std::numbers::pi * (j + 0.5) / kAzimuthCount;
-      const glm::dvec3 wm =
-          glm::normalize(glm::dvec3(alpha * (radius * std::cos(phi) + view.x), alpha * radius * std::sin(phi), height));
-      const double wiZ = 2 * (wo.x * wm.x + wo.z * wm.z) * wm.z - wo.z;
-      if (wiZ <= 0) continue;
-      const double weight = wiZ * (mu + lengthO) / (mu * projectedLength(wiZ) + wiZ * lengthO);
-      spread(shares, wiZ, 2 * t * weight / (kHeightCount * kAzimuthCount));
-    }
-  }
+  const double lengthO = facets.projectedLength(wo);
+  forVisibleNormals(facets, wo, {32, 16, true}, [&](const glm::dvec3& wm, double cosine, double weight) {
+    const glm::dvec3 wi = 2 * cosine * wm - wo;
+    if (wi.z > 0) spread(shares, wi.z, weight * facets.passage(wo, lengthO, wi));
+  });
   return shares;
 }
 
 /// What single reflection loses returns by the cosine and its own loss, as in Kulla and Conty 2017, "Revisiting
 /// Physically Based Shading at Imageworks".
-Transport whiteTransport(double roughness) {
+Transport whiteTransport(const FacetModel& model, double roughness) {
+  const Facets facets(model, glm::dvec2(roughness * roughness));
   Transport transport;
   Row lost{};
   for (uint32_t c = 0; c < kMuCount; ++c) {
-    transport[c] = reflectedShares(nodeRoot(c) * nodeRoot(c), roughness * roughness);
+    transport[c] = reflectedShares(facets, nodeRoot(c) * nodeRoot(c));
     double sum = 0;
     for (const double share : transport[c]) sum += share;
     lost[c] = std::max(1 - sum, 0.0);
@@ -155,10 +143,10 @@ struct LayerAlbedo {
 };
 
 /// @param layerAlbedo of a row
-std::vector<float> computeTable(const std::function<LayerAlbedo(uint32_t)>& layerAlbedo) {
+std::vector<float> computeTable(const FacetModel& model, const std::function<LayerAlbedo(uint32_t)>& layerAlbedo) {
   std::vector<float> table(gpu::kLayerTableSize);
   std::array<Transport, gpu::kLayerBaseCount> transports;
-  for (uint32_t b = 1; b < gpu::kLayerBaseCount; ++b) transports[b] = whiteTransport(baseRoughness(b));
+  for (uint32_t b = 1; b < gpu::kLayerBaseCount; ++b) transports[b] = whiteTransport(model, baseRoughness(b));
   for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) {
     const LayerAlbedo layer = layerAlbedo(r);
     std::copy(layer.albedo.begin(), layer.albedo.end(), &table[gpu::kLayerAlbedo + r * kMuCount]);
@@ -169,7 +157,7 @@ std::vector<float> computeTable(const std::function<LayerAlbedo(uint32_t)>& laye
     for (uint32_t c = 0; c < kMuCount; ++c) passed[c] = std::max(1 - layer.albedo[c], 0.0);
     for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) {
       const uint32_t cell = r * gpu::kLayerBaseCount + b;
-      const std::array<Row, 2> ggx = ggxRows(baseRoughness(b));
+      const std::array<Row, 2> ggx = ggxRows(model, baseRoughness(b));
       for (uint32_t i = 0; i < 2; ++i) {
         table[gpu::kLayerCovariance + 2 * cell + i] =
             static_cast<float>(meanOfProduct(ggx[i], layer.albedo) - mean(ggx[i]) * layerMean);
@@ -186,8 +174,8 @@ std::vector<float> computeTable(const std::function<LayerAlbedo(uint32_t)>& laye
   return table;
 }
 
-LayerAlbedo clearcoatAlbedo(double roughness) {
-  const std::array<Row, 2> ggx = ggxRows(roughness);
+LayerAlbedo clearcoatAlbedo(const FacetModel& model, double roughness) {
+  const std::array<Row, 2> ggx = ggxRows(model, roughness);
   LayerAlbedo layer;
   layer.scale.fill(1);
   for (uint32_t c = 0; c < kMuCount; ++c) layer.albedo[c] = double(gpu::kClearcoatF0) * ggx[0][c] + ggx[1][c];
@@ -269,12 +257,12 @@ SheenLobe sheenLobe(double roughness) {
 }
 
 /// What a clearcoat above takes from the sheen's light: the larger of its albedos at both directions.
-void addCoatedSheen(const std::vector<SheenLobe>& lobes, std::vector<float>& table) {
+void addCoatedSheen(const FacetModel& model, const std::vector<SheenLobe>& lobes, std::vector<float>& table) {
   table.resize(gpu::kSheenTableSize);
   std::array<std::array<Row, 2>, gpu::kLayerBaseCount> ggx;
-  for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) ggx[b] = ggxRows(baseRoughness(b));
+  for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) ggx[b] = ggxRows(model, baseRoughness(b));
   for (uint32_t q = 0; q < gpu::kLayerBaseCount; ++q) {
-    const Row coat = clearcoatAlbedo(baseRoughness(q)).albedo;
+    const Row coat = clearcoatAlbedo(model, baseRoughness(q)).albedo;
     for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) {
       Row taken{};
       for (uint32_t c = 0; c < kMuCount; ++c) {
@@ -294,24 +282,25 @@ void addCoatedSheen(const std::vector<SheenLobe>& lobes, std::vector<float>& tab
   }
 }
 
-std::vector<float> computeSheenTable() {
+std::vector<float> computeSheenTable(const FacetModel& model) {
   std::vector<SheenLobe> lobes;
   for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) lobes.push_back(sheenLobe(sheenRoughness(r)));
-  std::vector<float> table = computeTable([&lobes](uint32_t r) { return lobes[r].layer; });
-  addCoatedSheen(lobes, table);
+  std::vector<float> table = computeTable(model, [&lobes](uint32_t r) { return lobes[r].layer; });
+  addCoatedSheen(model, lobes, table);
   return table;
 }
 
 } // namespace
 
-const std::vector<float>& clearcoatTable() {
-  static const std::vector<float> table = computeTable([](uint32_t r) { return clearcoatAlbedo(layerRow(r)); });
-  return table;
+const std::vector<float>& clearcoatTable(const FacetModel& model) {
+  static Memo<FacetModel, std::vector<float>> tables;
+  const auto albedo = [&](uint32_t r) { return clearcoatAlbedo(model, layerRow(r)); };
+  return tables.get(model, [&] { return computeTable(model, albedo); });
 }
 
-const std::vector<float>& sheenTable() {
-  static const std::vector<float> table = computeSheenTable();
-  return table;
+const std::vector<float>& sheenTable(const FacetModel& model) {
+  static Memo<FacetModel, std::vector<float>> tables;
+  return tables.get(model, [&] { return computeSheenTable(model); });
 }
 
 } // namespace isophote

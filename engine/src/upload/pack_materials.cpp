@@ -4,6 +4,7 @@
 #include "shared/bsdf_constants.h"
 #include "upload/glass_loss.hpp"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -35,6 +36,7 @@ private:
     record.roughness = material.roughness;
     record.specular = material.specular;
     record.ior = material.ior;
+    record.exactAlbedo = exactAlbedo(material);
     record.dispersion = material.dispersion;
     record.alphaCutoff = material.alphaCutoff;
     record.alphaMode = static_cast<uint32_t>(material.alphaMode);
@@ -65,6 +67,7 @@ private:
     record.anisotropyStrength = anisotropy.strength;
     record.anisotropyRotation = anisotropy.rotation;
     record.anisotropySlot = slot(anisotropy.texture, false);
+    record.anisotropicAlbedo = anisotropicAlbedo(material);
     const Iridescence& iridescence = material.iridescence;
     record.iridescence = iridescence.factor;
     record.iridescenceIor = iridescence.ior;
@@ -104,18 +107,40 @@ private:
     if (material.transmission.factor == 0 || material.volume.thickness == 0 || material.ior < 1 || smooth)
       return gpu::kInvalidIndex;
     const bool textured = material.metallicRoughnessTexture.present();
+    std::vector<GlassSurface>& glass = packed_.tables.glass;
     const auto [entry, isNew] =
         glassLosses_.try_emplace(std::make_tuple(material.ior, material.dispersion, material.roughness, textured),
-                                 static_cast<uint32_t>(packed_.glassLoss.size()));
+                                 static_cast<uint32_t>(glass.size()) * 2 * gpu::kGlassLossHalf);
     if (isNew) {
       const glm::vec3 iors = channelIors(material);
       for (int channel = 0; channel < (isDispersive(material) ? 3 : 1); ++channel) {
-        const std::vector<glm::vec2> table =
-            glassLossTable(iors[channel], {textured ? 0 : material.roughness, material.roughness});
-        packed_.glassLoss.insert(packed_.glassLoss.end(), table.begin(), table.end());
+        glass.push_back({iors[channel], {textured ? 0 : material.roughness, material.roughness}});
       }
     }
     return entry->second;
+  }
+
+  // Where the table of its anisotropic facets begins.
+  uint32_t anisotropicAlbedo(const Material& material) {
+    if (material.anisotropy.strength <= 0) return gpu::kInvalidIndex;
+    const auto range = [](float largest, bool textured) { return glm::vec2(textured ? 0 : largest, largest); };
+    const AnisotropicSurface surface{range(material.roughness, material.metallicRoughnessTexture.present()),
+                                     range(material.anisotropy.strength, material.anisotropy.texture.present())};
+    uint32_t first = 0;
+    for (const AnisotropicSurface& known : packed_.tables.anisotropic) {
+      if (known == surface) return first;
+      first += anisotropicAlbedoSize(known);
+    }
+    packed_.tables.anisotropic.push_back(surface);
+    return first;
+  }
+
+  // Where the table of exact reflectance for the material's index begins, behind the one that all share.
+  uint32_t exactAlbedo(const Material& material) {
+    std::vector<float>& iors = packed_.tables.opaqueIors;
+    auto found = std::find(iors.begin(), iors.end(), material.ior);
+    if (found == iors.end()) found = iors.insert(found, material.ior);
+    return static_cast<uint32_t>(found - iors.begin() + 1) * gpu::kGgxAlbedoSize;
   }
 
   uint32_t slot(const TextureRef& use, bool srgb) {

@@ -1,7 +1,5 @@
 #include "upload/pack_scene.hpp"
 
-#include "upload/ggx_albedo.hpp"
-#include "upload/layer_tables.hpp"
 #include "upload/pack_geometry.hpp"
 #include "upload/pack_lights.hpp"
 #include "upload/pack_materials.hpp"
@@ -47,9 +45,9 @@ PackedScene packScene(const Scene& scene) {
   const PackedMaterials materials = packMaterials(scene, meshUsed, packed);
   const PackedGeometry geometry = packGeometry(scene, meshUsed, materials, packed);
   packLights(scene, geometry, packed);
-  if (packed.features.has(Feature::kHasSpecular)) packed.ggxAlbedo = ggxAlbedoTable();
-  if (packed.features.has(Feature::kHasClearcoat)) packed.clearcoatTable = clearcoatTable();
-  if (packed.features.has(Feature::kHasSheen)) packed.sheenTable = sheenTable();
+  packed.tables.facets = packed.features.has(Feature::kHasSpecular);
+  packed.tables.clearcoat = packed.features.has(Feature::kHasClearcoat);
+  packed.tables.sheen = packed.features.has(Feature::kHasSheen);
   removeUnfound(packed);
   return packed;
 }

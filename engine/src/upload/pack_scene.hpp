@@ -11,6 +11,7 @@
 #include "shared/geometry_types.h"
 #include "shared/light_types.h"
 #include "shared/material_types.h"
+#include "upload/scattering_tables.hpp"
 
 namespace isophote {
 
@@ -63,14 +64,11 @@ struct PackedScene {
   uint32_t environmentHeight = 0;
   float environmentCosRotation = 1;
   float environmentSinRotation = 0;
-  std::vector<glm::vec2> ggxAlbedo;
-  std::vector<float> clearcoatTable;
-  std::vector<float> sheenTable;
-  std::vector<glm::vec2> glassLoss; ///< a table for each index of rough glass
-  glm::dvec3 worldOrigin{0};        ///< subtracted from every world position before rounding to float
-  glm::dvec3 worldCenter{0};        ///< of the bounds, absolute
-  double worldRadius = 1;           ///< half diagonal of the bounds; 1 for an empty scene
-  float emitterScale = 1; ///< power of two at or above the largest radiance that a camera path can meet in one event
+  TableNeeds tables;
+  glm::dvec3 worldOrigin{0}; ///< subtracted from every world position before rounding to float
+  glm::dvec3 worldCenter{0}; ///< of the bounds, absolute
+  double worldRadius = 1;    ///< half diagonal of the bounds; 1 for an empty scene
+  float emitterScale = 1;    ///< power of two at or above the largest radiance that a camera path can meet in one event
   FeatureSet features;
   BvhStatistics bvh;
 };
