@@ -28,6 +28,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer MediaRef { M
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InteriorRef { InteriorState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ReplicateRef { ReplicateSum items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { AovSum items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ClampedRef { ClampedSum items[]; };
 
 // Whether the probability of a light depends on where it was chosen for, and a ray may find lights.
 bool keepsReceivers() { return kHasLightTree && (kHasEmissiveTriangles || kHasSphereLights) && pc.receivers != 0ul; }

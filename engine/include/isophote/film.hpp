@@ -26,6 +26,7 @@ struct FilmOptions {
   uint32_t height = 0;
   PixelRect crop;   ///< empty: the full image
   bool aovs = true; ///< albedo, normal, depth and position of the first hit
+  bool ledger = false; ///< what EstimatorSettings::clamp removes, as the channels clamped.{R,G,B}
 };
 
 /// Per pixel and independent replicate, 64-bit fixed-point sums that are exact and associative. Borrows the Device.

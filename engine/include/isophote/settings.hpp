@@ -19,6 +19,7 @@ enum class DirectionSampling : uint32_t { Lobes, Uniform, Cosine, Ndf, VisibleNo
 enum class MisHeuristic : uint32_t { Balance, Power };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
+inline constexpr float kNoClamp = std::numeric_limits<float>::infinity();
 
 /// Everything the image depends on besides scene, camera and sample range.
 struct EstimatorSettings {
@@ -33,6 +34,8 @@ struct EstimatorSettings {
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
   bool russianRoulette = true;
   bool multipleScattering = true; ///< between the facets of rough surfaces; false loses their light
+  /// Radiance of a sample's brightest channel; brighter samples are scaled down to it, which removes light.
+  float clamp = kNoClamp;
   uint64_t seed = 0;
 };
 

@@ -44,6 +44,10 @@ Film::Film(const Device& device, const FilmOptions& options) : impl_(std::make_u
   if (options.aovs) {
     impl_->aovs = gpu::Buffer(device, pixels * sizeof(gpu::AovSum), gpu::Memory::Device, "film.aovs");
   }
+  if (options.ledger) {
+    impl_->clamped =
+        gpu::Buffer(device, pixels * sizeof(gpu::ClampedSum), gpu::Memory::Device, "film.clamped");
+  }
   impl_->commands.emplace(device, 1, "film");
   clear();
 }
@@ -54,12 +58,13 @@ Film::~Film() = default;
 
 const FilmOptions& Film::options() const { return impl_->options; }
 
-uint64_t Film::bytes() const { return impl_->replicates.bytes() + impl_->aovs.bytes(); }
+uint64_t Film::bytes() const { return impl_->replicates.bytes() + impl_->aovs.bytes() + impl_->clamped.bytes(); }
 
 void Film::clear() {
   impl_->commands->begin();
   impl_->commands->fill(impl_->replicates, 0);
   if (impl_->aovs.bytes() != 0) impl_->commands->fill(impl_->aovs, 0);
+  if (impl_->clamped.bytes() != 0) impl_->commands->fill(impl_->clamped, 0);
   impl_->commands->submitAndWait();
   impl_->scale.reset();
 }

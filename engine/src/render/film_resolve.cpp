@@ -87,6 +87,24 @@ void resolveAovs(const Film::Impl& film, const gpu::AovSum* sums, Image& image) 
   }
 }
 
+// Mean radiance that clamping took from a sample of each pixel; after resolveRadiance.
+void resolveClamped(const Film::Impl& film, const gpu::ClampedSum* sums, Image& image) {
+  const uint32_t pixels = film.pixelCount();
+  const double perUnit = film.scale ? film.scale->radiancePerUnit : 0.0;
+  const std::vector<float> counts = image.find("sampleCount.Y")->values;
+  const size_t first = image.channels.size();
+  for (const char* name : {"clamped.R", "clamped.G", "clamped.B"})
+    image.channels.push_back({name, std::vector<float>(pixels)});
+  for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
+    if (counts[pixel] == 0) continue;
+    const int64_t removed[3] = {sums[pixel].red, sums[pixel].green, sums[pixel].blue};
+    for (size_t c = 0; c < 3; ++c) {
+      image.channels[first + c].values[pixel] =
+          static_cast<float>(static_cast<double>(removed[c]) * perUnit / double(counts[pixel]));
+    }
+  }
+}
+
 } // namespace
 
 Image Film::resolve() const {
@@ -95,6 +113,10 @@ Image Film::resolve() const {
   image.height = impl_->cropHeight;
   const auto replicates = readAll(*impl_->device, impl_->replicates);
   resolveRadiance(*impl_, reinterpret_cast<const gpu::ReplicateSum*>(replicates.data()), image);
+  if (impl_->clamped.bytes() != 0) {
+    const auto clamped = readAll(*impl_->device, impl_->clamped);
+    resolveClamped(*impl_, reinterpret_cast<const gpu::ClampedSum*>(clamped.data()), image);
+  }
   if (impl_->aovs.bytes() != 0) {
     const auto aovs = readAll(*impl_->device, impl_->aovs);
     resolveAovs(*impl_, reinterpret_cast<const gpu::AovSum*>(aovs.data()), image);

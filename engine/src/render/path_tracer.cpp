@@ -239,6 +239,7 @@ PathTracer::PathTracer(const Device& device, const GpuScene& scene, const Estima
   if (estimator.maxDepth == kUnlimitedDepth && !estimator.russianRoulette) {
     throw UsageError("unlimited depth needs Russian roulette: without it a path in a closed lossless scene never ends");
   }
+  if (!(estimator.clamp > 0)) throw UsageError("clamp: a sample's largest radiance must be positive");
   impl_ = std::make_unique<Impl>(device, scene, estimator, execution);
 }
 
