@@ -16,5 +16,6 @@ void addCompareCommand(CLI::App& program, Action& action);
 void addBenchCommand(CLI::App& program, Action& action);
 void addCalibrateCommand(CLI::App& program, Action& action);
 void addSettingsCommand(CLI::App& program, Action& action);
+void addTradeCommand(CLI::App& program, Action& action);
 
 } // namespace isophote::cli

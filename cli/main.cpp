@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     addInfoCommand(program, action);
     addDevicesCommand(program, action);
     addCompareCommand(program, action);
+    addTradeCommand(program, action);
     addCalibrateCommand(program, action);
     addBenchCommand(program, action);
     addSettingsCommand(program, action);

@@ -210,7 +210,9 @@ int runRender(const RenderOptions& options) {
   report.sceneStatistics = scene.statistics();
   report.seconds.bvh = report.sceneStatistics.bvhSeconds;
   report.seconds.upload = report.sceneStatistics.packSeconds + report.sceneStatistics.uploadSeconds;
-  Film film(device, {.width = report.view.width, .height = report.view.height, .crop = options.crop,
+  Film film(device, {.width = report.view.width,
+                     .height = report.view.height,
+                     .crop = options.crop,
                      .ledger = options.settings.estimator.clamp < kNoClamp});
   report.crop = film.options().crop;
   report.filmBytes = film.bytes();

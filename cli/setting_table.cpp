@@ -129,7 +129,8 @@ std::vector<SettingEntry> makeTable() {
               "light scattered more than once between the facets of a rough surface; off loses it (bias)"},
              estimator, &E::multipleScattering, onOff),
       limit({"clamp", "off, a radiance above 0", "off", "10",
-             "largest radiance of one sample; brighter ones are scaled down to it, and what that removes is accounted for "
+             "largest radiance of one sample; brighter ones are scaled down to it, and what that removes is accounted "
+             "for "
              "(bias)"},
             &E::clamp),
       number({"seed", "0 to 18446744073709551615", "0", "0", "another seed is another, independent image"}, estimator,

@@ -45,8 +45,7 @@ Film::Film(const Device& device, const FilmOptions& options) : impl_(std::make_u
     impl_->aovs = gpu::Buffer(device, pixels * sizeof(gpu::AovSum), gpu::Memory::Device, "film.aovs");
   }
   if (options.ledger) {
-    impl_->clamped =
-        gpu::Buffer(device, pixels * sizeof(gpu::ClampedSum), gpu::Memory::Device, "film.clamped");
+    impl_->clamped = gpu::Buffer(device, pixels * sizeof(gpu::ClampedSum), gpu::Memory::Device, "film.clamped");
   }
   impl_->commands.emplace(device, 1, "film");
   clear();

@@ -247,6 +247,8 @@ PathTracer::PathTracer(PathTracer&&) noexcept = default;
 PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
 PathTracer::~PathTracer() = default;
 
+void PathTracer::setSeed(uint64_t seed) { impl_->estimator.seed = seed; }
+
 void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   if (impl_->film != nullptr) throw Error("a render is under way: finish or cancel it first");
   if (range.last < range.first) throw UsageError("the sample range ends before it begins");
