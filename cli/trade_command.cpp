@@ -13,6 +13,7 @@
 #include "exit_codes.hpp"
 #include "interrupt.hpp"
 #include "isophote/error.hpp"
+#include "lecture/lecture.hpp"
 #include "parse.hpp"
 #include "progress_line.hpp"
 #include "scene_files.hpp"
@@ -46,6 +47,7 @@ struct TradeOptions {
   EnvironmentOptions environment;
   std::optional<std::string> variant;
   std::string device;
+  bool lecture = false;
   bool quiet = false;
 };
 
@@ -97,8 +99,22 @@ void describe(const Study& study, const StudyContext& context) {
   }
 }
 
+int runLecture(const TradeOptions& options) {
+  const VulkanInstance instance;
+  const Device device(instance, {.selector = options.device});
+  const LectureOptions lecture{
+      .scene = options.scene, .folder = options.directory, .width = options.width.value_or(72)};
+  const bool finished = writeLecture(device, lecture, [&](const std::string& text) {
+    if (!options.quiet) fmt::print(stderr, "{}\n", text);
+  });
+  if (finished) return kDone;
+  printError("interrupted; nothing is written");
+  return kInterrupted;
+}
+
 int runTrade(TradeOptions options) {
   catchInterrupts();
+  if (options.lecture) return runLecture(options);
   const auto start = std::chrono::steady_clock::now();
   const auto elapsed = [start] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -197,6 +213,9 @@ void addTradeCommand(CLI::App& program, Action& action) {
   addEnvironmentFlags(*command, options->environment);
   command->add_option("--device", options->device, "Vulkan device by part of its name, index, or cpu")
       ->type_name("NAME|INDEX|cpu");
+  command->add_flag(
+      "--lecture", options->lecture,
+      "Instead, render and measure the comparisons of the course: of assets/lecture.glb, into docs/lecture");
   command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
   command->footer(kExamples);
   command->callback([options, &action] { action = [options] { return runTrade(*options); }; });

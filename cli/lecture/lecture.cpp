@@ -22,6 +22,16 @@ namespace {
 constexpr uint32_t kMagnification = 4;                // of the pictures, so that single pixels can be seen
 constexpr uint64_t kReferenceSeed = 0x7265666572656e; // none of the runs'
 
+/// For a cell of a table.
+std::string cellText(const std::string& text) {
+  std::string cell;
+  for (const char c : text) {
+    if (c == '|') cell += '\\';
+    cell += c;
+  }
+  return cell;
+}
+
 /// What was found of one figure.
 struct Found {
   ErrorSplit split;
@@ -187,8 +197,8 @@ private:
         "distributions of normals), Veach 1997\n(mixtures, densities on lights), IEC 61966-2-1 (sRGB).\n\n"
         "| what | as written | correct | gives | should give | bias |\n|---|---|---|---|---|---|\n";
     for (const CourseFormula& f : courseFormulas()) {
-      text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {:+.3g}% |\n", f.what, f.asWritten, f.correct, f.found,
-                          f.expected, 100 * (f.found / f.expected - 1));
+      text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {:+.3g}% |\n", f.what, cellText(f.asWritten),
+                          cellText(f.correct), f.found, f.expected, 100 * (f.found / f.expected - 1));
     }
     return text;
   }

@@ -82,7 +82,9 @@ Configuration Configuration::combinedWith(const Configuration& other) const {
 std::vector<Configuration> singleChanges(const std::vector<std::string>& asked) {
   std::vector<Configuration> list;
   if (asked.empty()) {
-    for (const SettingEntry& entry : settingTable()) addChanges(entry, entry.trials, list);
+    for (const SettingEntry& entry : settingTable()) {
+      if (!entry.execution) addChanges(entry, entry.trials, list);
+    }
   }
   for (const std::string& text : asked) {
     const size_t equals = text.find('=');

@@ -33,7 +33,7 @@ struct Configuration {
 };
 
 /// Each value of each setting alone that differs from the exact one, as the setting table says.
-/// @param asked  `key` or `key=value,value`: these settings only; empty: all
+/// @param asked  `key` or `key=value,value`: these settings only; empty: all that change the image
 /// @throws UsageError for an unknown setting or value
 [[nodiscard]] std::vector<Configuration> singleChanges(const std::vector<std::string>& asked);
 

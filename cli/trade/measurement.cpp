@@ -35,12 +35,12 @@ Price priceOf(const Measurement& measurement, const Measurement& base) {
           .cost = ratioInterval(cost, baseCost)};
 }
 
-bool biasIsSeen(const ErrorSplit& split, size_t tests) {
+bool biasIsSeen(const ErrorSplit& split, size_t tests, bool pixels) {
   if (split.runs < 2) return false;
   // Two tests each, of the squared bias (one tail) and of the brightness; Bonferroni.
   const double level = 0.01 / (2 * static_cast<double>(std::max<size_t>(tests, 1)));
   const auto tail = [](double deviations) { return 0.5 * std::erfc(deviations / std::sqrt(2.0)); };
-  return tail(split.biasDeviations) < level || 2 * tail(std::abs(split.brightnessDeviations)) < level;
+  return (pixels && tail(split.biasDeviations) < level) || 2 * tail(std::abs(split.brightnessDeviations)) < level;
 }
 
 } // namespace isophote::cli

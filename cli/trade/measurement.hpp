@@ -52,7 +52,9 @@ struct Price {
 };
 [[nodiscard]] Price priceOf(const Measurement& measurement, const Measurement& base);
 
-/// Whether noise alone would make one of `tests` configurations look so biased in less than 1% of studies.
-[[nodiscard]] bool biasIsSeen(const ErrorSplit& split, size_t tests);
+/// Whether noise alone would make one of `tests` configurations look so biased in less than 1% of studies: its pixels,
+/// or all of them together.
+/// @param pixels  false where the reference is too noisy for its pixels to say anything
+[[nodiscard]] bool biasIsSeen(const ErrorSplit& split, size_t tests, bool pixels = true);
 
 } // namespace isophote::cli

@@ -17,7 +17,7 @@ constexpr const char* kStyle = R"(
   --a: #2457c5; --b: #c2410c; --c: #15803d; --d: #7e22ce; --e: #0e7490; --f: #a16207; --bad: #b91c1c; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e6e8eb; --quiet: #98a2b0; --line: #383d45; --ground: #16181b;
   --panel: #1f2226; --a: #7aa5ff; --b: #ff9a62; --c: #5fd18a; --d: #c99bff; --e: #5cc8dd; --f: #e3b341; --bad: #ff7b72; } }
-body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--ground); max-width: 1120px;
+body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--ground); max-width: 1240px;
   margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.6rem; margin: 0 0 .3rem } h2 { font-size: 1.15rem; margin: 2.2rem 0 .6rem }
 p, li { max-width: 78ch } .quiet { color: var(--quiet) } .bad { color: var(--bad) } .good { color: var(--c) }
@@ -26,10 +26,10 @@ code { font: 13px ui-monospace, monospace; overflow-wrap: anywhere }
 .card { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: .8rem 1rem }
 .card h3 { margin: 0 0 .3rem; font-size: 1rem } .card code { display: block; margin: .5rem 0 }
 .wide { overflow-x: auto } table { border-collapse: collapse; font-variant-numeric: tabular-nums }
-th, td { text-align: right; padding: .35rem .7rem; border-bottom: 1px solid var(--line); vertical-align: middle }
+th, td { text-align: right; padding: .35rem .55rem; border-bottom: 1px solid var(--line); vertical-align: middle }
 th:first-child, td:first-child { text-align: left } th { font-weight: 600; vertical-align: bottom }
 td small { color: var(--quiet); display: block; white-space: nowrap }
-img { image-rendering: pixelated; width: 144px; display: block; border: 1px solid var(--line) } .large img { width: 384px }
+img { image-rendering: pixelated; width: 112px; display: block; border: 1px solid var(--line) } .large img { width: 384px }
 svg { width: 100%; max-width: 860px; background: var(--panel); border: 1px solid var(--line); border-radius: 8px }
 .grid { stroke: var(--line); fill: none } .tick { fill: var(--quiet); font: 11px system-ui, sans-serif }
 .middle { text-anchor: middle } .end { text-anchor: end } .line { fill: none; stroke-width: 1.8 }
@@ -127,7 +127,7 @@ private:
       html_ +=
           fmt::format(" The least bias that can be seen here is about {}.",
                       percent(rootOf(study_.exact().split.biasSquare.upper - study_.exact().split.biasSquare.value)));
-      if (biasIsSeen(study_.exact().split, study_.measuredCount()))
+      if (study_.biasSeen(study_.exact()))
         html_ += " <span class='bad'>The exact settings show another image than the reference: it was made of another "
                  "scene, camera or environment, or holds a bright event that they have not seen.</span>";
     }
@@ -255,7 +255,7 @@ private:
     const double bias = rootOf(m.split.biasSquare.value);
     plot.whisker({price.cost.lower, bias}, {price.cost.upper, bias}, style);
     plot.whisker({cost, rootOf(m.split.biasSquare.lower)}, {cost, rootOf(m.split.biasSquare.upper)}, style);
-    const bool labelled = m.configuration.changes.size() < 2 && (bias > 0.02 || place != colored.end());
+    const bool labelled = place != colored.end() || (study_.biasSeen(m) && m.configuration.changes.size() < 2);
     plot.mark({cost, bias}, style,
               fmt::format("{}: {:.3g} of the time, bias {}", m.configuration.name(), cost, percent(bias)),
               labelled ? m.configuration.name() : "");
@@ -287,7 +287,7 @@ private:
     const Measurement& m = study_.measurements[index];
     const Price price = priceOf(m, study_.exact());
     const ErrorSplit& split = m.split;
-    const bool seen = biasIsSeen(split, study_.measuredCount());
+    const bool seen = study_.biasSeen(m);
     html_ += fmt::format(
         "<tr><td><code>{}</code><small>{} runs of {}{}{}</small></td>", escaped(m.configuration.name()), m.runs.size(),
         timeText(m.seconds().value), m.declaredUnbiased ? "" : ", declared as biased",

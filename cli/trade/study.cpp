@@ -14,18 +14,22 @@
 namespace isophote::cli {
 namespace {
 
-// Shares of the time that is left when all kernels are compiled; what then remains is for the confirmation.
+// Of the whole time, for compiling the kernels of all configurations; those that are not reached are not measured.
+constexpr double kProbeShare = 0.45;
+// Shares of the time that is left then; what remains is for the confirmation.
 constexpr double kReferenceShare = 0.3;
 constexpr double kSinglesShare = 0.35;
 constexpr double kSearchShare = 0.2;
 
 constexpr uint32_t kProbeSamples = gpu::kReplicateCount;
-constexpr uint32_t kPlannedRounds = 4;
+constexpr uint32_t kPlannedRounds = 5;
+constexpr uint32_t kFewestRounds = 3; // two give intervals that say nothing
 constexpr uint32_t kMostRounds = 16;
-constexpr uint32_t kSearchRounds = 3;
+constexpr uint32_t kSearchRounds = 4;
 constexpr size_t kSearchBatch = 3; // combinations that are measured side by side
 constexpr uint32_t kMostSamples = 1u << 14;
-constexpr double kReferenceGain = 400; // the reference need not be better than a run's mean square by more
+constexpr double kWorstReference = 0.01; // mean square: a tenth
+constexpr double kReferenceGain = 400;   // the reference need not be better than a run's mean square by more
 
 constexpr uint64_t kProbeSeed = 0x70726f6265;         // none of the runs', which count from 1
 constexpr uint64_t kReferenceSeed = 0x7265666572656e; // likewise
@@ -79,7 +83,8 @@ private:
     std::vector<size_t> list;
     for (size_t i = 0; i < study_.measurements.size(); ++i) {
       const MeasurementState state = study_.measurements[i].state;
-      if (state == MeasurementState::Planned || state == MeasurementState::Measured) list.push_back(i);
+      const bool usable = state == MeasurementState::Planned || state == MeasurementState::Measured;
+      if (usable && secondsPerSample_[i] > 0) list.push_back(i);
     }
     return list;
   }
@@ -88,7 +93,8 @@ private:
   void probe() {
     std::optional<BenchRender> exact;
     secondsPerSample_.assign(study_.measurements.size(), 0);
-    for (size_t i = 0; i < study_.measurements.size() && timeLeft(plan_.seconds); ++i) {
+    for (size_t i = 0;
+         i < study_.measurements.size() && (i == 0 ? !interrupted() : timeLeft(kProbeShare * plan_.seconds)); ++i) {
       Measurement& m = study_.measurements[i];
       progress_(fmt::format("trying {} of {} settings", i, study_.measurements.size() - 1));
       try {
@@ -128,7 +134,7 @@ private:
     splitter_.emplace(reference.image);
     reference.square = splitter_->referenceSquare();
     const double runSquare = probeSquare_ * kProbeSamples / study_.samplesPerRun;
-    reference.goodEnough = reference.square <= runSquare / kPlannedRounds;
+    reference.goodEnough = reference.square <= std::min(runSquare / kPlannedRounds, kWorstReference);
   }
 
   void renderReference(double deadline) {
@@ -188,8 +194,7 @@ private:
     const std::vector<size_t> configurations = active();
     double roundSeconds = 0;
     for (uint32_t round = 0; round < kMostRounds && !interrupted(); ++round) {
-      // Two rounds are the least that say anything.
-      if (round >= 2 && elapsed_() + roundSeconds > deadline) return;
+      if (round >= kFewestRounds && elapsed_() + roundSeconds > deadline) return;
       const double start = elapsed_();
       if (!measureRound(configurations, fmt::format("one setting at a time, round {}", round + 1))) return;
       roundSeconds = elapsed_() - start;
@@ -249,7 +254,7 @@ private:
             {.configuration = configuration, .declaredUnbiased = configuration.declaredUnbiased()});
       }
       if (batch.size() == 1) return;
-      for (uint32_t round = 0; round < kSearchRounds && (round < 2 || timeLeft(deadline)); ++round) {
+      for (uint32_t round = 0; round < kSearchRounds && (round < kFewestRounds || timeLeft(deadline)); ++round) {
         if (!measureBatch(batch, round)) return;
       }
     }
@@ -332,7 +337,7 @@ std::vector<Recommendation> recommend(const Study& study) {
     for (size_t i = 0; i < study.measurements.size(); ++i) {
       const Measurement& m = study.measurements[i];
       if (!m.measured()) continue;
-      const bool biased = !m.declaredUnbiased || biasIsSeen(m.split, study.measuredCount());
+      const bool biased = !m.declaredUnbiased || study.biasSeen(m);
       if (biased && !biasAllowed) continue;
       const double weighted =
           secondsToError(m.tradeOff(), error) * std::pow(1.05, static_cast<double>(m.configuration.changes.size()));

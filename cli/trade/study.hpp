@@ -19,7 +19,8 @@ struct Reference {
   double seconds = 0;
   double square = 0; ///< relative mean square of its own error
   double untrustedShare = 0;
-  /// Its error is below what the mean of all runs of one configuration is left with.
+  /// Its error is below what the mean of all runs of one configuration is left with, and below a tenth: pixels relative
+  /// to worse values mean nothing.
   bool goodEnough = false;
 };
 
@@ -60,6 +61,9 @@ struct Study {
   [[nodiscard]] const Measurement& exact() const { return measurements.front(); }
   /// How many configurations were measured: as many chances to see a bias that is not there.
   [[nodiscard]] size_t measuredCount() const;
+  [[nodiscard]] bool biasSeen(const Measurement& measurement) const {
+    return biasIsSeen(measurement.split, measuredCount(), reference.goodEnough);
+  }
 };
 
 /// Called between renders and now and then within one: what is being done.

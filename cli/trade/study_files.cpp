@@ -57,7 +57,7 @@ Json measurementJson(const Study& study, size_t index) {
   const Price price = priceOf(m, study.exact());
   json["seconds"] = intervalJson(m.seconds());
   json.update(splitJson(m.split));
-  json["bias_seen"] = biasIsSeen(m.split, study.measuredCount());
+  json["bias_seen"] = study.biasSeen(m);
   json["cost"] = number(m.tradeOff().cost);
   json["on_front"] = std::find(study.front.begin(), study.front.end(), index) != study.front.end();
   json["relative_to_exact"] = {{"seconds", intervalJson(price.seconds)},
@@ -177,8 +177,8 @@ std::string studyCsv(const Study& study) {
     interval(m.split.noiseSquare);
     interval(m.split.biasSquare);
     interval(m.split.brightness);
-    text += fmt::format(",{},{},{:.6g},{:.6g}", biasIsSeen(m.split, study.measuredCount()) ? 1 : 0,
-                        m.declaredUnbiased ? 1 : 0, price.seconds.value, price.noise.value);
+    text += fmt::format(",{},{},{:.6g},{:.6g}", study.biasSeen(m) ? 1 : 0, m.declaredUnbiased ? 1 : 0,
+                        price.seconds.value, price.noise.value);
     interval(price.cost);
     text += "\n";
   }
