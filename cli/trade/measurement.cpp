@@ -11,11 +11,6 @@ Interval Measurement::seconds() const {
   return meanInterval(seconds);
 }
 
-TradeOff Measurement::tradeOff() const {
-  return {.cost = seconds().value * split.noiseSquare.value,
-          .biasSquare = declaredUnbiased ? 0 : std::max(0.0, split.biasSquare.upper)};
-}
-
 Price priceOf(const Measurement& measurement, const Measurement& base) {
   std::vector<double> seconds, baseSeconds, noise, baseNoise, cost, baseCost;
   for (const Run& run : measurement.runs) {
@@ -33,6 +28,11 @@ Price priceOf(const Measurement& measurement, const Measurement& base) {
   return {.seconds = ratioInterval(seconds, baseSeconds),
           .noise = ratioInterval(noise, baseNoise),
           .cost = ratioInterval(cost, baseCost)};
+}
+
+TradeOff tradeOffOf(const Measurement& measurement, const Measurement& base) {
+  return {.cost = base.seconds().value * base.split.noiseSquare.value * priceOf(measurement, base).cost.value,
+          .biasSquare = measurement.declaredUnbiased ? 0 : std::max(0.0, measurement.split.biasSquare.upper)};
 }
 
 bool biasIsSeen(const ErrorSplit& split, size_t tests, bool pixels) {

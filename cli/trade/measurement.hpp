@@ -39,9 +39,6 @@ struct Measurement {
   [[nodiscard]] bool measured() const { return state == MeasurementState::Measured && runs.size() >= 2; }
   [[nodiscard]] Interval seconds() const; ///< of one run
   [[nodiscard]] uint32_t samples() const { return runs.empty() ? 0 : runs.front().samples; }
-  /// Bias of settings that declare none counts as none; of others its upper bound does, so that one too small to be
-  /// seen is not taken for nothing.
-  [[nodiscard]] TradeOff tradeOff() const;
 };
 
 /// Seconds, noise (relative mean square) and their product, over those of `base`; runs are paired by round.
@@ -51,6 +48,10 @@ struct Price {
   Interval cost;
 };
 [[nodiscard]] Price priceOf(const Measurement& measurement, const Measurement& base);
+
+/// The cost is that of `base` times what runs side by side say of the ratio. Bias of settings that declare none counts
+/// as none; of others its upper bound does, so that one too small to be seen is not taken for nothing.
+[[nodiscard]] TradeOff tradeOffOf(const Measurement& measurement, const Measurement& base);
 
 /// Whether noise alone would make one of `tests` configurations look so biased in less than 1% of studies: its pixels,
 /// or all of them together.

@@ -150,7 +150,7 @@ private:
                       escaped(m.configuration.name()), escaped(commandLine(study_, r, context_)));
       html_ += fmt::format("<div>Forecast for {} x {} pixels: {}; with the exact settings {}.</div>", context_.width,
                            context_.height, timeText(r.seconds),
-                           timeText(secondsToError(study_.exact().tradeOff(), r.targetError)));
+                           timeText(secondsToError(study_.tradeOff(0), r.targetError)));
       confirmation(r);
       html_ += "</div>\n";
     }
@@ -171,24 +171,26 @@ private:
                     percent(r.forecastError), timeText(r.foundSeconds.value), timeText(r.forecastSeconds));
   }
 
-  /// The exact settings and the front, each with its color; at most as many as there are colors.
+  /// The exact settings, what is recommended and the front, each with its color; at most as many as there are colors.
   [[nodiscard]] std::vector<size_t> shown() const {
     std::vector<size_t> list = {0};
-    for (const size_t i : study_.front) {
-      if (i != 0 && list.size() < kColors) list.push_back(i);
-    }
+    const auto show = [&](size_t i) {
+      if (list.size() < kColors && std::find(list.begin(), list.end(), i) == list.end()) list.push_back(i);
+    };
+    for (const Recommendation& r : study_.recommendations) show(r.measurement);
+    for (const size_t i : study_.front) show(i);
     return list;
   }
 
   std::string errorPlot() {
     const std::vector<size_t> ways = shown();
-    const double slowest = secondsToError(study_.exact().tradeOff(), 0.01);
+    const double slowest = secondsToError(study_.tradeOff(0), 0.01);
     const double fastest = study_.exact().seconds().value / 8;
-    const double from = std::min(fastest, secondsToError(study_.exact().tradeOff(), 0.3));
+    const double from = std::min(fastest, secondsToError(study_.tradeOff(0), 0.3));
     const double to = std::max(slowest, 10 * fastest);
     double high = 0.1, low = 1e-3;
-    for (const size_t i : ways) high = std::max(high, errorAfter(study_.measurements[i].tradeOff(), from));
-    low = std::max(low, 0.7 * errorAfter(study_.exact().tradeOff(), to));
+    for (const size_t i : ways) high = std::max(high, errorAfter(study_.tradeOff(i), from));
+    low = std::max(low, 0.7 * errorAfter(study_.tradeOff(0), to));
     Plot plot({.label = "seconds", .from = from, .to = to, .logarithmic = true},
               {.label = "relative RMS error", .from = low, .to = high, .logarithmic = true, .percent = true});
     for (size_t w = 0; w < ways.size(); ++w) {
@@ -197,7 +199,7 @@ private:
       std::vector<Plot::Point> points;
       for (int step = 0; step <= 60; ++step) {
         const double seconds = from * std::pow(to / from, step / 60.0);
-        points.push_back({seconds, errorAfter(m.tradeOff(), seconds)});
+        points.push_back({seconds, errorAfter(study_.tradeOff(ways[w]), seconds)});
       }
       plot.line(points, style, m.configuration.name());
       plot.mark({m.seconds().value, rootOf(m.split.totalSquare.value)}, style,
@@ -220,12 +222,13 @@ private:
 
   std::string frontPlot() {
     const std::vector<size_t> colored = shown();
-    const double exactCost = study_.exact().tradeOff().cost;
+    const double exactCost = study_.tradeOff(0).cost;
     double least = 0.8, most = 1.25, highest = 0.01;
-    for (const Measurement& m : study_.measurements) {
+    for (size_t i = 0; i < study_.measurements.size(); ++i) {
+      const Measurement& m = study_.measurements[i];
       if (!m.measured()) continue;
-      least = std::min(least, 0.8 * m.tradeOff().cost / exactCost);
-      most = std::max(most, 1.25 * m.tradeOff().cost / exactCost);
+      least = std::min(least, 0.8 * study_.tradeOff(i).cost / exactCost);
+      most = std::max(most, 1.25 * study_.tradeOff(i).cost / exactCost);
       highest = std::max(highest, 1.1 * rootOf(m.split.biasSquare.upper));
     }
     Plot plot({.label = "time to the same noise, over that of the exact settings",
@@ -235,14 +238,14 @@ private:
               {.label = "RMS bias", .from = 0, .to = highest, .percent = true});
     std::vector<Plot::Point> front;
     for (const size_t i : study_.front) {
-      const TradeOff way = study_.measurements[i].tradeOff();
+      const TradeOff way = study_.tradeOff(i);
       const Plot::Point point{way.cost / exactCost, std::sqrt(way.biasSquare)};
       if (!front.empty()) front.push_back({point.x, front.back().y});
       front.push_back(point);
     }
     plot.line(front, "front", "Pareto front");
     for (size_t i = 0; i < study_.measurements.size(); ++i) markWay(plot, i, colored, exactCost);
-    return "<div>" + plot.svg() + "</div>\n";
+    return "<div>" + plot.svg() + "</div>\n" + legend(colored);
   }
 
   void markWay(Plot& plot, size_t index, const std::vector<size_t>& colored, double exactCost) const {
@@ -251,11 +254,11 @@ private:
     const auto place = std::find(colored.begin(), colored.end(), index);
     const std::string style = place == colored.end() ? "other" : fmt::format("s{}", place - colored.begin());
     const Price price = priceOf(m, study_.exact());
-    const double cost = m.tradeOff().cost / exactCost;
+    const double cost = study_.tradeOff(index).cost / exactCost;
     const double bias = rootOf(m.split.biasSquare.value);
     plot.whisker({price.cost.lower, bias}, {price.cost.upper, bias}, style);
     plot.whisker({cost, rootOf(m.split.biasSquare.lower)}, {cost, rootOf(m.split.biasSquare.upper)}, style);
-    const bool labelled = place != colored.end() || (study_.biasSeen(m) && m.configuration.changes.size() < 2);
+    const bool labelled = study_.biasSeen(m) && m.configuration.changes.size() < 2;
     plot.mark({cost, bias}, style,
               fmt::format("{}: {:.3g} of the time, bias {}", m.configuration.name(), cost, percent(bias)),
               labelled ? m.configuration.name() : "");
@@ -269,9 +272,8 @@ private:
     }
     if (rows.empty()) return;
     if (!singles) {
-      std::sort(rows.begin(), rows.end(), [&](size_t a, size_t b) {
-        return study_.measurements[a].tradeOff().cost < study_.measurements[b].tradeOff().cost;
-      });
+      std::sort(rows.begin(), rows.end(),
+                [&](size_t a, size_t b) { return study_.tradeOff(a).cost < study_.tradeOff(b).cost; });
     }
     html_ +=
         fmt::format("<h2>{}</h2>\n<div class='wide'><table><tr><th>settings</th><th>time per sample<br>× exact</th>"

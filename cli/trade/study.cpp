@@ -212,7 +212,7 @@ private:
   std::vector<size_t> front() const {
     const std::vector<size_t> candidates = measuredOnes();
     std::vector<TradeOff> ways;
-    for (const size_t i : candidates) ways.push_back(study_.measurements[i].tradeOff());
+    for (const size_t i : candidates) ways.push_back(study_.tradeOff(i));
     std::vector<size_t> front;
     for (const size_t i : paretoFront(ways)) front.push_back(candidates[i]);
     return front;
@@ -226,16 +226,16 @@ private:
   /// What is promising and not yet tried: a way on the front with one more way that pays, best forecast first. The
   /// forecast takes gains as independent.
   std::vector<Configuration> nextCombinations() const {
-    const double exactCost = study_.exact().tradeOff().cost;
+    const double exactCost = study_.tradeOff(0).cost;
     std::vector<std::pair<double, Configuration>> found;
     for (const size_t a : front()) {
       for (const size_t b : measuredOnes()) {
         const Measurement &first = study_.measurements[a], &second = study_.measurements[b];
-        const double gain = second.tradeOff().cost / exactCost;
+        const double gain = study_.tradeOff(b).cost / exactCost;
         Configuration both = first.configuration.combinedWith(second.configuration);
         if (!(gain < 1) || both.exact() || known(both)) continue;
         if (std::any_of(found.begin(), found.end(), [&](const auto& entry) { return entry.second == both; })) continue;
-        found.emplace_back(first.tradeOff().cost * gain, std::move(both));
+        found.emplace_back(study_.tradeOff(a).cost * gain, std::move(both));
       }
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -287,7 +287,8 @@ private:
       const double perSample = m.seconds().value / m.samples();
       r.confirmedSamples = std::min(r.samples, wholeSamples(0.85 * share / 2 / perSample));
       r.forecastSeconds = perSample * r.confirmedSamples;
-      r.forecastError = errorAfter(m.tradeOff(), r.forecastSeconds);
+      const double noiseSquare = m.split.noiseSquare.value * m.samples() / r.confirmedSamples;
+      r.forecastError = std::sqrt(noiseSquare + study_.tradeOff(r.measurement).biasSquare);
     }
     for (int run = 0; run < 2; ++run) {
       for (size_t i = 0; i < list.size(); ++i) {
@@ -339,15 +340,16 @@ std::vector<Recommendation> recommend(const Study& study) {
       if (!m.measured()) continue;
       const bool biased = !m.declaredUnbiased || study.biasSeen(m);
       if (biased && !biasAllowed) continue;
-      const double weighted =
-          secondsToError(m.tradeOff(), error) * std::pow(1.05, static_cast<double>(m.configuration.changes.size()));
+      const double weighted = secondsToError(study.tradeOff(i), error) *
+                              std::pow(1.05, static_cast<double>(m.configuration.changes.size()));
       if (weighted >= least) continue;
       least = weighted;
       best = i;
     }
     const Measurement& m = study.measurements[best];
-    const double seconds = secondsToError(m.tradeOff(), error);
-    const double samples = seconds / m.seconds().value * m.samples();
+    const TradeOff way = study.tradeOff(best);
+    const double samples = m.split.noiseSquare.value * m.samples() / (error * error - way.biasSquare);
+    const double seconds = secondsToError(way, error);
     const double rounds = std::ceil(std::min(samples, 1e9) / gpu::kReplicateCount);
     list.push_back({.purpose = purpose,
                     .targetError = error,

@@ -61,6 +61,7 @@ struct Study {
   [[nodiscard]] const Measurement& exact() const { return measurements.front(); }
   /// How many configurations were measured: as many chances to see a bias that is not there.
   [[nodiscard]] size_t measuredCount() const;
+  [[nodiscard]] TradeOff tradeOff(size_t measurement) const { return tradeOffOf(measurements[measurement], exact()); }
   [[nodiscard]] bool biasSeen(const Measurement& measurement) const {
     return biasIsSeen(measurement.split, measuredCount(), reference.goodEnough);
   }

@@ -58,7 +58,7 @@ Json measurementJson(const Study& study, size_t index) {
   json["seconds"] = intervalJson(m.seconds());
   json.update(splitJson(m.split));
   json["bias_seen"] = study.biasSeen(m);
-  json["cost"] = number(m.tradeOff().cost);
+  json["cost"] = number(study.tradeOff(index).cost);
   json["on_front"] = std::find(study.front.begin(), study.front.end(), index) != study.front.end();
   json["relative_to_exact"] = {{"seconds", intervalJson(price.seconds)},
                                {"noise_square", intervalJson(price.noise)},
