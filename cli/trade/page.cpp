@@ -85,6 +85,9 @@ public:
     introduction();
     if (study_.exact().measured()) {
       recommendations();
+      if (!(study_.tradeOff(0).cost > 0)) html_ += "<p>The exact settings have no noise here.</p>\n";
+    }
+    if (study_.exact().measured() && study_.tradeOff(0).cost > 0) {
       html_ += "<h2>Error against time</h2>\n" + errorPlot();
       html_ +=
           "<p class='quiet'>Relative RMS error, noise and bias together, of the exact settings and of what no other "
@@ -227,9 +230,13 @@ private:
     for (size_t i = 0; i < study_.measurements.size(); ++i) {
       const Measurement& m = study_.measurements[i];
       if (!m.measured()) continue;
-      least = std::min(least, 0.8 * study_.tradeOff(i).cost / exactCost);
-      most = std::max(most, 1.25 * study_.tradeOff(i).cost / exactCost);
-      highest = std::max(highest, 1.1 * rootOf(m.split.biasSquare.upper));
+      const double cost = study_.tradeOff(i).cost / exactCost;
+      if (cost > 0 && std::isfinite(cost)) { // a way without noise has no place on the axis
+        least = std::min(least, 0.8 * cost);
+        most = std::max(most, 1.25 * cost);
+      }
+      highest =
+          std::max({highest, 1.3 * rootOf(m.split.biasSquare.value), 1.1 * std::sqrt(study_.tradeOff(i).biasSquare)});
     }
     Plot plot({.label = "time to the same noise, over that of the exact settings",
                .from = least,

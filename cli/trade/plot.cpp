@@ -22,6 +22,7 @@ double Axis::position(double value) const {
 
 std::vector<double> Axis::ticks() const {
   std::vector<double> ticks;
+  if (!(to > from) || !std::isfinite(to - from) || (logarithmic && !(from > 0))) return ticks;
   if (logarithmic) {
     // 1, 2, 5 of each decade; of long axes decades alone.
     const bool decades = std::log10(to / from) > 3;

@@ -25,8 +25,8 @@ constexpr uint32_t kProbeSamples = gpu::kReplicateCount;
 constexpr uint32_t kPlannedRounds = 5;
 constexpr uint32_t kFewestRounds = 3; // two give intervals that say nothing
 constexpr uint32_t kMostRounds = 16;
-constexpr uint32_t kSearchRounds = 4;
-constexpr size_t kSearchBatch = 3; // combinations that are measured side by side
+constexpr uint32_t kSearchRounds = 6;
+constexpr size_t kSearchBatch = 2; // combinations that are measured side by side
 constexpr uint32_t kMostSamples = 1u << 14;
 constexpr double kWorstReference = 0.01; // mean square: a tenth
 constexpr double kReferenceGain = 400;   // the reference need not be better than a run's mean square by more
@@ -93,8 +93,9 @@ private:
   void probe() {
     std::optional<BenchRender> exact;
     secondsPerSample_.assign(study_.measurements.size(), 0);
-    for (size_t i = 0;
-         i < study_.measurements.size() && (i == 0 ? !interrupted() : timeLeft(kProbeShare * plan_.seconds)); ++i) {
+    for (size_t i = 0; i < study_.measurements.size() && !interrupted(); ++i) {
+      // What was asked for by name is measured whatever it takes.
+      if (i > 0 && plan_.settings.empty() && !timeLeft(kProbeShare * plan_.seconds)) return;
       Measurement& m = study_.measurements[i];
       progress_(fmt::format("trying {} of {} settings", i, study_.measurements.size() - 1));
       try {
@@ -340,6 +341,8 @@ std::vector<Recommendation> recommend(const Study& study) {
       if (!m.measured()) continue;
       const bool biased = !m.declaredUnbiased || study.biasSeen(m);
       if (biased && !biasAllowed) continue;
+      // Cheaper beyond doubt, not by the luck of being the least of many.
+      if (i > 0 && !(priceOf(m, study.exact()).cost.upper < 1)) continue;
       const double weighted = secondsToError(study.tradeOff(i), error) *
                               std::pow(1.05, static_cast<double>(m.configuration.changes.size()));
       if (weighted >= least) continue;

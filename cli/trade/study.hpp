@@ -75,8 +75,9 @@ using StudyProgress = std::function<void(const std::string& stage)>;
 [[nodiscard]] Study runStudy(Workbench& bench, const StudyPlan& plan, const std::function<double()>& elapsed,
                              const StudyProgress& progress);
 
-/// Chooses, for draft, balanced and final, the fastest way to 20%, 5% and 1%; each change of a setting must save a
-/// twentieth of the time to be recommended, and the last must be unbiased.
+/// Chooses, for draft, balanced and final, the fastest way to 20%, 5% and 1%; of those whose cost is below
+/// that of the exact settings with all of its interval. Each change of a setting must save a twentieth of the time, and
+/// the last way must be unbiased.
 [[nodiscard]] std::vector<Recommendation> recommend(const Study& study);
 
 } // namespace isophote::cli

