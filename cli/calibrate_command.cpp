@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "interrupt.hpp"
+#include "isophote/coverage.hpp"
 #include "isophote/error.hpp"
 #include "isophote/path_tracer.hpp"
 #include "parse.hpp"
@@ -37,13 +38,9 @@ struct Rendered {
   ErrorEstimate error;
 };
 
-/// What the intervals of some runs of one kind held.
-struct Coverage {
-  uint64_t values = 0; ///< pixel-channels
-  uint64_t covered = 0;
-  uint64_t trustedValues = 0;
-  uint64_t trustedCovered = 0;
-  uint64_t missedBlind = 0; ///< of those not covered, the ones that report no error at all: nothing was seen to vary
+/// What some runs of one kind showed.
+struct Outcome {
+  Coverage pixels;
   uint32_t runs = 0;
   uint32_t imagesBelowUpper = 0; ///< runs whose true error is below the upper bound
   uint32_t imagesCovered = 0;
@@ -56,7 +53,8 @@ public:
   Calibration(const Device& device, const LoadedScene& loaded, const CalibrateOptions& options)
       : device_(device), scene_(device, loaded.scene), options_(options),
         view_(chooseView(loaded.scene, CameraOptions{}, options.width, std::nullopt)) {
-    reference_ = render({.seed = kReferenceSeed}, options.referenceSamples).image;
+    PathTracer tracer(device, scene_, {.seed = kReferenceSeed});
+    reference_ = render(tracer, options.referenceSamples).image;
     double luminance = 0;
     const size_t pixels = size_t{view_.width} * view_.height;
     for (size_t i = 0; i < pixels; ++i) {
@@ -65,18 +63,19 @@ public:
     epsilon_ = 0.01 * luminance / static_cast<double>(pixels);
   }
 
-  [[nodiscard]] Coverage measure(SamplerKind sampler, uint32_t samples) const {
-    Coverage coverage;
+  [[nodiscard]] Outcome measure(SamplerKind sampler, uint32_t samples) const {
+    Outcome outcome;
+    PathTracer tracer(device_, scene_, {.sampler = sampler});
     for (uint32_t run = 0; run < options_.runs && !interrupted(); ++run) {
-      add(render({.sampler = sampler, .seed = 1 + run}, samples), samples, coverage);
+      tracer.setSeed(1 + run);
+      add(render(tracer, samples), samples, outcome);
     }
-    return coverage;
+    return outcome;
   }
 
 private:
-  [[nodiscard]] Rendered render(const EstimatorSettings& estimator, uint32_t samples) const {
+  [[nodiscard]] Rendered render(PathTracer& tracer, uint32_t samples) const {
     Film film(device_, {.width = view_.width, .height = view_.height, .aovs = false});
-    PathTracer tracer(device_, scene_, estimator);
     tracer.render(view_.camera, film, {0, samples}, [](const Progress&) { return !interrupted(); });
     return {film.resolve(), film.error()};
   }
@@ -85,34 +84,26 @@ private:
     return image.find(channel)->values[pixel];
   }
 
-  void add(const Rendered& run, uint32_t samples, Coverage& coverage) const {
+  void add(const Rendered& run, uint32_t samples, Outcome& outcome) const {
+    addCoverage(run.image, reference_, outcome.pixels);
     double relative = 0;
     const size_t pixels = size_t{view_.width} * view_.height;
     for (const std::string color : {"R", "G", "B"}) {
       for (size_t i = 0; i < pixels; ++i) {
         const double truth = at(reference_, color, i);
         const double difference = at(run.image, color, i) - truth;
-        // The reference is not exact either: both intervals together.
-        const double half = at(run.image, "ci95." + color, i);
-        const bool covered = std::abs(difference) <= std::hypot(half, at(reference_, "ci95." + color, i));
-        const bool trusted = at(run.image, "trust.Y", i) >= 0.1;
-        coverage.values += 1;
-        coverage.covered += covered ? 1 : 0;
-        coverage.trustedValues += trusted ? 1 : 0;
-        coverage.trustedCovered += trusted && covered ? 1 : 0;
-        coverage.missedBlind += !covered && half == 0 ? 1 : 0;
         relative += difference * difference / (truth * truth + epsilon_ * epsilon_);
       }
     }
     // The reference's own error, in the mean, taken off again.
     const double trueSquare =
         relative / (3.0 * static_cast<double>(pixels)) / (1 + double(samples) / options_.referenceSamples);
-    coverage.runs += 1;
-    coverage.imagesBelowUpper += std::sqrt(trueSquare) <= run.error.upper ? 1 : 0;
-    coverage.imagesCovered +=
-        std::sqrt(trueSquare) <= run.error.upper && std::sqrt(trueSquare) >= run.error.lower ? 1 : 0;
-    coverage.estimatedSquare += run.error.value * run.error.value;
-    coverage.trueSquare += trueSquare;
+    const double trueError = std::sqrt(trueSquare);
+    outcome.runs += 1;
+    outcome.imagesBelowUpper += trueError <= run.error.upper ? 1 : 0;
+    outcome.imagesCovered += trueError <= run.error.upper && trueError >= run.error.lower ? 1 : 0;
+    outcome.estimatedSquare += run.error.value * run.error.value;
+    outcome.trueSquare += trueSquare;
   }
 
   const Device& device_;
@@ -139,23 +130,25 @@ int runCalibrate(const CalibrateOptions& options) {
   for (const auto& [sampler, name] :
        {std::pair{SamplerKind::Sobol, "sobol"}, std::pair{SamplerKind::Independent, "independent"}}) {
     for (const uint32_t samples : kSampleCounts) {
-      const Coverage c = calibration.measure(sampler, samples);
+      const Outcome outcome = calibration.measure(sampler, samples);
+      const Coverage& c = outcome.pixels;
       if (interrupted()) return kInterrupted;
-      const double ratio = c.trueSquare > 0 ? std::sqrt(c.estimatedSquare / c.trueSquare) : 1;
+      const double ratio = outcome.trueSquare > 0 ? std::sqrt(outcome.estimatedSquare / outcome.trueSquare) : 1;
       list.push_back({{"sampler", name},
                       {"spp", samples},
                       {"covered", share(c.covered, c.values)},
                       {"covered_where_trusted", share(c.trustedCovered, c.trustedValues)},
                       {"trusted", share(c.trustedValues, c.values)},
+                      {"missed_above", share(c.missedAbove, c.values)},
                       {"missed_blind", share(c.missedBlind, c.values)},
-                      {"images", c.runs},
-                      {"images_covered", c.imagesCovered},
-                      {"images_below_upper", c.imagesBelowUpper},
+                      {"images", outcome.runs},
+                      {"images_covered", outcome.imagesCovered},
+                      {"images_below_upper", outcome.imagesBelowUpper},
                       {"estimated_over_true_error", ratio}});
       if (options.json) continue;
       fmt::print("{:<11} {:>5}  {:>8.1f}%  {:>9.1f}%  {:>11.1f}%  {:>9} of {}  {:>18.2f}\n", name, samples,
                  100 * share(c.covered, c.values), 100 * share(c.trustedCovered, c.trustedValues),
-                 100 * share(c.missedBlind, c.values), c.imagesCovered, c.runs, ratio);
+                 100 * share(c.missedBlind, c.values), outcome.imagesCovered, outcome.runs, ratio);
       std::fflush(stdout);
     }
   }

@@ -17,5 +17,6 @@ void addBenchCommand(CLI::App& program, Action& action);
 void addCalibrateCommand(CLI::App& program, Action& action);
 void addMergeCommand(CLI::App& program, Action& action);
 void addSettingsCommand(CLI::App& program, Action& action);
+void addTradeCommand(CLI::App& program, Action& action);
 
 } // namespace isophote::cli

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "isophote/compare.hpp"
+#include "isophote/error.hpp"
 
 namespace isophote::cli {
 namespace {
@@ -17,6 +19,7 @@ struct CompareOptions {
   std::string test;
   std::string reference;
   std::string heatmap;
+  std::string zMap;
   bool json = false;
 };
 
@@ -40,6 +43,29 @@ void writeHeatmap(const std::string& file, const std::vector<float>& map, uint32
   writePng(file, image, 0, ToneMap::Linear); // the stops are display values
 }
 
+/// Deviations as z.{R,G,B}, or as a picture: of each pixel the channel that deviates most, red where the test is
+/// brighter, blue where darker, pale below the critical deviation and full beyond it.
+void writeZMap(const std::string& file, const Verdict& verdict, uint32_t width, uint32_t height) {
+  const size_t pixels = size_t{width} * height;
+  const bool exr = std::filesystem::path(file).extension() == ".exr";
+  Image image{.width = width, .height = height};
+  for (const char* name : {"R", "G", "B"})
+    image.channels.push_back({exr ? std::string("z.") + name : name, std::vector<float>(pixels)});
+  for (size_t i = 0; i < pixels; ++i) {
+    const float* z = verdict.deviations.data() + 3 * i;
+    if (exr) {
+      for (size_t c = 0; c < 3; ++c) image.channels[c].values[i] = z[c];
+      continue;
+    }
+    const float most = *std::max_element(z, z + 3, [](float a, float b) { return std::abs(a) < std::abs(b); });
+    const float share = std::abs(most) / static_cast<float>(verdict.criticalDeviation);
+    const glm::vec3 full = most > 0 ? glm::vec3(0.75f, 0.1f, 0.1f) : glm::vec3(0.1f, 0.25f, 0.75f);
+    const glm::vec3 color = glm::mix(glm::vec3(1), full, share > 1 ? 1.0f : 0.4f * share);
+    for (int c = 0; c < 3; ++c) image.channels[static_cast<size_t>(c)].values[i] = color[c];
+  }
+  exr ? writeExr(file, image) : writePng(file, image, 0, ToneMap::Linear);
+}
+
 /// JSON knows no NaN; null says that there is no number.
 nlohmann::ordered_json numberOrNull(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
@@ -52,19 +78,21 @@ void printJson(const CompareOptions& options, const Comparison& comparison) {
                                  {"relMSE", numberOrNull(comparison.relMse)},
                                  {"rmse", numberOrNull(comparison.rmse)},
                                  {"psnr", numberOrNull(comparison.psnr)},
-                                 {"flip", numberOrNull(comparison.flip)}};
+                                 {"flip", numberOrNull(comparison.flip)},
+                                 {"hdr_flip", numberOrNull(comparison.hdrFlip)}};
   if (comparison.verdict) {
     json["verdict"] = {{"same", comparison.verdict->same},
                        {"p", comparison.verdict->p},
                        {"passing_fraction", comparison.verdict->passingFraction},
-                       {"failing_blocks", comparison.verdict->failingBlocks}};
+                       {"failing_blocks", comparison.verdict->failingBlocks},
+                       {"critical_z", comparison.verdict->criticalDeviation}};
   }
   fmt::print("{}\n", json.dump(2));
 }
 
 void printText(const Comparison& comparison) {
-  fmt::print("relMSE  {:.6g}\nRMSE    {:.6g}\nPSNR    {:.4g} dB\nFLIP    {:.6g}\n", comparison.relMse, comparison.rmse,
-             comparison.psnr, comparison.flip);
+  fmt::print("relMSE  {:.6g}\nRMSE    {:.6g}\nPSNR    {:.4g} dB\nFLIP    {:.6g}\nHDRFLIP {:.6g}\n", comparison.relMse,
+             comparison.rmse, comparison.psnr, comparison.flip, comparison.hdrFlip);
   if (!comparison.verdict) {
     fmt::print("verdict none: an image has no error bars (stderr.R, .G, .B)\n");
     return;
@@ -76,9 +104,14 @@ void printText(const Comparison& comparison) {
 
 int runCompare(const CompareOptions& options) {
   if (!options.heatmap.empty()) checkWritable(options.heatmap);
+  if (!options.zMap.empty()) checkWritable(options.zMap);
   const Image test = readExr(options.test);
   const Comparison comparison = compareImages(test, readExr(options.reference));
   if (!options.heatmap.empty()) writeHeatmap(options.heatmap, comparison.flipMap, test.width, test.height);
+  if (!options.zMap.empty()) {
+    if (!comparison.verdict) throw UsageError("--z-map: an image has no error bars (stderr.R, .G, .B)");
+    writeZMap(options.zMap, *comparison.verdict, test.width, test.height);
+  }
   options.json ? printJson(options, comparison) : printText(comparison);
   return comparison.verdict && !comparison.verdict->same ? kFailed : kDone;
 }
@@ -97,6 +130,12 @@ void addCompareCommand(CLI::App& program, Action& action) {
   command->add_flag("--json", options->json, "Machine-readable");
   command->add_option("--heatmap", options->heatmap, "Write the FLIP error map as PNG, black for no difference")
       ->type_name("F.png");
+  command
+      ->add_option(
+          "--z-map", options->zMap,
+          "Write each pixel's difference in standard errors: .exr (z.R, z.G, z.B), or .png (red brighter, blue "
+          "darker, full color where it fails)")
+      ->type_name("F.exr|F.png");
   command->footer(R"(Examples:
   isophote compare new.exr reference.exr
   isophote compare new.exr reference.exr --json --heatmap difference.png

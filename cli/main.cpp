@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     addDevicesCommand(program, action);
     addCompareCommand(program, action);
     addMergeCommand(program, action);
+    addTradeCommand(program, action);
     addCalibrateCommand(program, action);
     addBenchCommand(program, action);
     addSettingsCommand(program, action);

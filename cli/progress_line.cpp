@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 namespace isophote::cli {
-namespace {
 
 std::string clockText(double seconds) {
   const auto total = static_cast<uint64_t>(std::clamp(seconds, 0.0, 1e9));
@@ -16,8 +15,6 @@ std::string clockText(double seconds) {
   if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, total / 60 % 60, total % 60);
   return fmt::format("{}:{:02}", total / 60, total % 60);
 }
-
-} // namespace
 
 std::string progressText(const RenderState& state) {
   const double fraction = std::clamp(state.fraction, 0.0, 1.0);
@@ -35,9 +32,8 @@ bool ProgressLine::due() const {
   return !quiet_ && Clock::now() - last_ >= (terminal_ ? 100ms : 5000ms);
 }
 
-void ProgressLine::show(const RenderState& state) {
+void ProgressLine::show(const std::string& text) {
   if (quiet_) return;
-  const std::string text = progressText(state);
   if (terminal_) {
     fmt::print(stderr, "\r{:<{}}", text, shown_);
     shown_ = text.size();

@@ -16,6 +16,9 @@ struct RenderState {
   ErrorEstimate error;
 };
 
+/// `0:12`, `1:02:03`
+[[nodiscard]] std::string clockText(double seconds);
+
 /// `37%  0:12 elapsed, 0:20 left, 4.31 Mrays/s, error 2.4%`
 [[nodiscard]] std::string progressText(const RenderState& state);
 
@@ -29,7 +32,8 @@ public:
 
   /// Whether it is time for another line; asking costs nothing.
   [[nodiscard]] bool due() const;
-  void show(const RenderState& state);
+  void show(const RenderState& state) { show(progressText(state)); }
+  void show(const std::string& text);
   /// Takes the line off a terminal, before other output.
   void clear();
 

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -117,6 +118,21 @@ void countSamples(const Image& image, const SampleRange& asked, RenderReport& re
   report.samples = {asked.first, asked.first + static_cast<uint32_t>(*most)};
 }
 
+double channelMean(const Image& image, const std::string& name) {
+  const Channel* channel = image.find(name);
+  if (channel == nullptr || channel->values.empty()) return 0;
+  return std::accumulate(channel->values.begin(), channel->values.end(), 0.0) / double(channel->values.size());
+}
+
+/// What clamping took, and what it left.
+void accountForClamp(const Image& image, RenderReport& report) {
+  constexpr const char* kColors[] = {"R", "G", "B"};
+  for (int c = 0; c < 3; ++c) {
+    report.kept[c] = channelMean(image, kColors[c]);
+    report.clamped[c] = channelMean(image, std::string("clamped.") + kColors[c]);
+  }
+}
+
 void writeImages(const RenderOptions& options, const Image& image, bool environment) {
   Image opaque;
   for (const std::string& file : options.outputs) {
@@ -202,7 +218,10 @@ int runRender(const RenderOptions& options) {
   report.sceneStatistics = scene.statistics();
   report.seconds.bvh = report.sceneStatistics.bvhSeconds;
   report.seconds.upload = report.sceneStatistics.packSeconds + report.sceneStatistics.uploadSeconds;
-  Film film(device, {.width = report.view.width, .height = report.view.height, .crop = options.crop});
+  Film film(device, {.width = report.view.width,
+                     .height = report.view.height,
+                     .crop = options.crop,
+                     .ledger = options.settings.estimator.clamp < kNoClamp});
   report.crop = film.options().crop;
   report.filmBytes = film.bytes();
   PathTracer tracer(device, scene, options.settings.estimator, options.settings.execution);
@@ -227,6 +246,7 @@ int runRender(const RenderOptions& options) {
   watch.lap();
   Image image = film.resolve();
   countSamples(image, rule.samples, report);
+  accountForClamp(image, report);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);
   if (options.sampleRange) storeSums(image, film.sums()); // a shard, to be merged

@@ -1,5 +1,6 @@
 #include "setting_table.hpp"
 
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ template <class Part, class T>
 SettingEntry choice(SettingEntry entry, Part Settings::*part, T Part::*member, Names<T> names) {
   entry.set = [=](Settings& settings, const std::string& text) { settings.*part.*member = fromName(names, text); };
   entry.get = [=](const Settings& settings) { return toName(names, settings.*part.*member); };
+  for (const auto& [name, value] : names) entry.trials.emplace_back(name);
   return entry;
 }
 
@@ -48,6 +50,27 @@ SettingEntry number(SettingEntry entry, Part Settings::*part, T Part::*member, u
     const T value = settings.*part.*member;
     return name != nullptr && value == namedValue ? std::string(name) : std::to_string(value);
   };
+  entry.trials = {entry.exact, entry.fast};
+  return entry;
+}
+
+/// An entry that is a positive number, or off: infinite.
+SettingEntry limit(SettingEntry entry, float EstimatorSettings::*member) {
+  constexpr float kOff = std::numeric_limits<float>::infinity();
+  entry.set = [=](Settings& settings, const std::string& text) {
+    settings.estimator.*member = text == "off" ? kOff : static_cast<float>(parseNumber(text, 1e-30, 1e30));
+  };
+  entry.get = [=](const Settings& settings) {
+    const float value = settings.estimator.*member;
+    return value == kOff ? std::string("off") : fmt::format("{}", value);
+  };
+  entry.trials = {entry.exact, entry.fast};
+  return entry;
+}
+
+/// An entry whose values ask for other images, so that none is a price for another.
+SettingEntry untraded(SettingEntry entry) {
+  entry.trials.clear();
   return entry;
 }
 
@@ -61,12 +84,12 @@ std::vector<SettingEntry> makeTable() {
       choice({"sampler", "sobol, independent", "sobol", "sobol",
               "where random numbers come from (Owen-scrambled Sobol points)"},
              estimator, &E::sampler, {{"sobol", SamplerKind::Sobol}, {"independent", SamplerKind::Independent}}),
-      choice({"filter", "box, gaussian, blackman-harris", "blackman-harris", "blackman-harris",
-              "pixel filter, importance sampled"},
-             estimator, &E::filter,
-             {{"box", PixelFilter::Box},
-              {"gaussian", PixelFilter::Gaussian},
-              {"blackman-harris", PixelFilter::BlackmanHarris}}),
+      untraded(choice({"filter", "box, gaussian, blackman-harris", "blackman-harris", "blackman-harris",
+                       "pixel filter, importance sampled"},
+                      estimator, &E::filter,
+                      {{"box", PixelFilter::Box},
+                       {"gaussian", PixelFilter::Gaussian},
+                       {"blackman-harris", PixelFilter::BlackmanHarris}})),
       number({"max-depth", "0 to 4294967294, unlimited", "unlimited", "4",
               "scattering events on a path: 0 is emission seen directly, 1 direct light; a limit loses light (bias)"},
              estimator, &E::maxDepth, kUnlimitedDepth - 1, "unlimited", kUnlimitedDepth),
@@ -120,6 +143,11 @@ std::vector<SettingEntry> makeTable() {
       choice({"multiple-scattering", "on, off", "on", "on",
               "light scattered more than once between the facets of a rough surface; off loses it (bias)"},
              estimator, &E::multipleScattering, onOff),
+      limit({"clamp", "off, a radiance above 0", "off", "10",
+             "largest radiance of one sample; brighter ones are scaled down to it, and what that removes is accounted "
+             "for "
+             "(bias)"},
+            &E::clamp),
       number({"seed", "0 to 18446744073709551615", "0", "0", "another seed is another, independent image"}, estimator,
              &E::seed, ~uint64_t{0}, nullptr, uint64_t{0}),
       number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", true}, execution,
@@ -176,6 +204,11 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
         {"value", settings.estimator.maxDepth},
         {"exact", "unlimited"},
         {"leaves_out", fmt::format("light after more than {} scattering events", settings.estimator.maxDepth)}};
+  }
+  if (settings.estimator.clamp < kNoClamp) {
+    json["clamp"] = {{"value", settings.estimator.clamp},
+                     {"exact", "off"},
+                     {"leaves_out", fmt::format("what samples hold above a radiance of {}", settings.estimator.clamp)}};
   }
   if (!settings.estimator.multipleScattering) {
     json["multiple-scattering"] = {

@@ -25,6 +25,7 @@ struct SettingEntry {
   bool execution;                                         ///< never changes the image
   std::function<void(Settings&, const std::string&)> set; ///< @throws UsageError
   std::function<std::string(const Settings&)> get;
+  std::vector<std::string> trials; ///< values that `isophote trade` compares
 };
 
 [[nodiscard]] const std::vector<SettingEntry>& settingTable();

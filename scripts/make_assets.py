@@ -6,7 +6,7 @@ usage: scripts/make_assets.py [FOLDER]   (assets/ of this checkout)
 import pathlib
 import sys
 
-from asset_maker import caustic, cornell_box, demo, many_lights, material_grid, open_air, triangle, veach
+from asset_maker import caustic, cornell_box, demo, lecture, many_lights, material_grid, open_air, triangle, veach
 
 
 def main():
@@ -16,6 +16,7 @@ def main():
     triangle.scene().write_gltf(folder / "triangle.gltf")
     material_grid.scene().write_glb(folder / "material-grid.glb")
     demo.scene().write_glb(folder / "demo.glb")
+    lecture.scene().write_glb(folder / "lecture.glb")
     veach.scene().write_gltf(folder / "veach-plates.gltf")
     caustic.scene().write_glb(folder / "caustic.glb")
     many_lights.scene().write_glb(folder / "many-lights.glb")

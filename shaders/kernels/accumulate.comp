@@ -7,6 +7,21 @@
 #include "math/float_bits.glsl"
 #include "sampling/hash.glsl"
 
+// Scales a sample brighter than the limit down to it, and keeps account of what that takes away.
+vec3 clampSample(const RenderRef render, const uint pixel, const vec3 radiance, const uvec4 dither) {
+  const float brightest = max(radiance.x, max(radiance.y, radiance.z));
+  if (brightest <= render.view.sampleLimit) return radiance;
+  const vec3 kept = radiance * (render.view.sampleLimit / brightest);
+  if (render.view.clamped != 0ul) {
+    const vec3 removed = (radiance - kept) * render.view.radianceScale;
+    ClampedRef clamped = ClampedRef(render.view.clamped);
+    atomicAdd(clamped.items[pixel].red, toFixedPoint(removed.x, dither.x));
+    atomicAdd(clamped.items[pixel].green, toFixedPoint(removed.y, dither.y));
+    atomicAdd(clamped.items[pixel].blue, toFixedPoint(removed.z, dither.z));
+  }
+  return kept;
+}
+
 void addSample(const PathState path) {
   RenderRef render = RenderRef(pc.render);
   const uvec2 cropPixel = uvec2(path.pixel & 0xffffu, path.pixel >> 16u) - render.view.cropOrigin;
@@ -21,9 +36,10 @@ void addSample(const PathState path) {
     countStatus(kStatusNegative);
     radiance = vec3(0.0);
   }
+  const uvec4 dither = pcg4d(uvec4(path.pixel, path.sampleIndex, render.view.seed));
+  if (kClamp != 0u) radiance = clampSample(render, pixel, radiance, dither);
   const vec3 scaled = radiance * render.view.radianceScale;
   if (any(greaterThan(scaled, vec3(kFixedPointLimit)))) countStatus(kStatusClipped);
-  const uvec4 dither = pcg4d(uvec4(path.pixel, path.sampleIndex, render.view.seed));
   ReplicateRef sums = ReplicateRef(render.view.replicates);
   atomicAdd(sums.items[index].red, toFixedPoint(scaled.x, dither.x));
   atomicAdd(sums.items[index].green, toFixedPoint(scaled.y, dither.y));

@@ -29,6 +29,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InteriorRef 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer StraightRef { StraightState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ReplicateRef { ReplicateSum items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { AovSum items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ClampedRef { ClampedSum items[]; };
 
 // Whether shadow rays cross glass, unbent.
 const bool kStraightShadows = kHasTransmission && kShadowTransmission == 1u;

@@ -32,6 +32,13 @@ struct AovSum {
 };
 ISOPHOTE_CONST uint kAovSampleCount = 64u;
 
+// What EstimatorSettings::clamp took from a pixel's samples, in the units of ReplicateSum.
+struct ClampedSum {
+  Int64 red;
+  Int64 green;
+  Int64 blue;
+};
+
 // Radiance is stored in units of 2^-kRadianceFractionBits * PackedScene::emitterScale. A sum holds 2^27 samples of
 // emitterScale, a single sample is clipped (and counted) at 2^26 emitterScale.
 ISOPHOTE_CONST uint kRadianceFractionBits = 36u;

@@ -138,6 +138,7 @@ struct RenderView {
   Address filterTable; // float[kFilterTableSize]
   Address replicates;  // ReplicateSum[crop pixels * kReplicateCount]
   Address aovs;        // AovSum[crop pixels] or 0
+  Address clamped;     // ClampedSum[crop pixels] or 0
   Uint64 workEnd;
   uvec2 imageSize;
   uvec2 cropOrigin;
@@ -150,6 +151,8 @@ struct RenderView {
   uvec2 seed;
   float radianceScale; // fixed point per unit of radiance
   float distanceScale; // fixed point per unit of length
+  float sampleLimit;   // radiance; read with kClamp only
+  uint unused;         // keeps the size a multiple of 8
   MediumStack cameraMedia;
 };
 

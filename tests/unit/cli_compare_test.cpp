@@ -57,6 +57,29 @@ TEST_F(CliCompare, WritesAHeatmap) {
   EXPECT_TRUE(test::readBytes(path("map.png")).starts_with("\x89PNG"));
 }
 
+TEST_F(CliCompare, WritesDeviationsAsPlanesAndAsAPicture) {
+  for (const char* name : {"z.exr", "z.png"}) {
+    const auto result =
+        run({"compare", writeNoisy("a.exr", 1, 0), writeNoisy("b.exr", 2, 0), "--z-map", path(name).string()});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+  }
+  const Image z = readExr(path("z.exr"));
+  double squares = 0;
+  for (const char* name : {"z.R", "z.G", "z.B"}) {
+    for (const float value : z.find(name)->values) squares += double(value) * double(value) / (3 * 1024);
+  }
+  // Error bars are exact here and taken for those of eight replicates: below 1 by the heavier tails of Student's t.
+  EXPECT_NEAR(squares, 0.8, 0.1);
+  EXPECT_TRUE(test::readBytes(path("z.png")).starts_with("\x89PNG"));
+}
+
+TEST_F(CliCompare, RefusesAZMapWithoutErrorBars) {
+  const auto result =
+      run({"compare", writeNoisy("a.exr", 1, 0, false), writeNoisy("b.exr", 2, 0), "--z-map", path("z.png").string()});
+  EXPECT_EQ(result.exitCode, 2);
+  expectOneErrorLine(result);
+}
+
 TEST_F(CliCompare, RefusesDifferentSizes) {
   writeExr(path("small.exr"), test::noiseImage(8, 8, {"R", "G", "B"}));
   const auto result = run({"compare", writeNoisy("a.exr", 1, 0), path("small.exr").string()});

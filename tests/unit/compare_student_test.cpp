@@ -57,5 +57,20 @@ TEST(StudentTail, HasTheTablesQuantiles) {
   EXPECT_EQ(studentTwoSided(INFINITY, 7), 0);
 }
 
+TEST(StudentTail, QuantilesAreItsInverse) {
+  for (const double p : {1.0, 0.5, 0.05, 1e-3, 1e-12}) {
+    for (const double dof : {1.0, 7.0, 1e3}) EXPECT_NEAR(studentTwoSided(studentQuantile(p, dof), dof), p, 1e-9 * p);
+  }
+  EXPECT_NEAR(studentQuantile(0.05, 7), 2.364624, 1e-6);
+}
+
+TEST(StudentTail, NormalDeviationsAreTheInverseOfTheTail) {
+  EXPECT_NEAR(normalDeviation(0.05), 1.959963985, 1e-9);
+  for (const double p : {0.999, 0.5, 1e-3, 1e-20, 1e-250})
+    EXPECT_NEAR(std::erfc(normalDeviation(p) / std::sqrt(2.0)), p, 1e-9 * p);
+  EXPECT_EQ(normalDeviation(1), 0);
+  EXPECT_EQ(normalDeviation(0), normalDeviation(1e-300));
+}
+
 } // namespace
 } // namespace isophote::estimate

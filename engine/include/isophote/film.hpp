@@ -28,8 +28,9 @@ struct ErrorEstimate {
 struct FilmOptions {
   uint32_t width = 0; ///< 1 to 65535
   uint32_t height = 0;
-  PixelRect crop;   ///< empty: the full image
-  bool aovs = true; ///< albedo, normal, depth and position of the first hit
+  PixelRect crop;      ///< empty: the full image
+  bool aovs = true;    ///< albedo, normal, depth and position of the first hit
+  bool ledger = false; ///< what EstimatorSettings::clamp removes, as the channels clamped.{R,G,B}
 };
 
 /// A film's exact sums on the host: what a checkpoint keeps, and what merging adds.
@@ -40,10 +41,12 @@ struct FilmSums {
   glm::dvec3 worldOrigin{0};         ///< that positions are relative to
   std::vector<std::byte> replicates; ///< ReplicateSum of shared/film_types.h
   std::vector<std::byte> aovs;       ///< AovSum; empty without those layers
+  std::vector<std::byte> clamped;    ///< ClampedSum; empty without the ledger
 };
 
 /// Stores the sums in the image as integers, so that images can be merged exactly: one plane for each 32-bit word of
-/// a pixel's ReplicateSums (`sums.replicates.N`) and AovSum (`sums.aovs.N`) and the attribute `isophote.sums`.
+/// a pixel's ReplicateSums (`sums.replicates.N`), AovSum (`sums.aovs.N`) and ClampedSum (`sums.clamped.N`) and the
+/// attribute `isophote.sums`.
 void storeSums(Image& image, const FilmSums& sums);
 
 /// The sums that storeSums stored. @throws UsageError where the image has none

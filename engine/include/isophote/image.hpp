@@ -54,8 +54,12 @@ enum class Transfer : uint32_t { Srgb, Gamma22 };
 /// Linear not at all.
 [[nodiscard]] glm::vec3 toneMap(glm::vec3 color, ToneMap operation, Transfer transfer = Transfer::Srgb);
 
-/// Writes R, G, B (and A where present) as 8-bit sRGB, tone-mapped after exposure by 2^exposureEv. Atomic like
-/// writeExr.
+/// R, G, B (and A where present) as the bytes of a PNG file: 8-bit sRGB, tone-mapped after exposure by 2^exposureEv.
+/// @throws OutputError where there are more pixels than the format's encoder takes
+[[nodiscard]] std::string encodePng(const Image& image, float exposureEv, ToneMap operation,
+                                    Transfer transfer = Transfer::Srgb);
+
+/// Writes what encodePng makes, atomically like writeExr.
 /// @throws OutputError
 void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation,
               Transfer transfer = Transfer::Srgb);

@@ -69,6 +69,9 @@ public:
   PathTracer& operator=(PathTracer&&) noexcept;
   ~PathTracer();
 
+  /// Renders that begin from now on use this seed; the kernels stay.
+  void setSeed(uint64_t seed);
+
   /// Adds samples `range` of every pixel of the film. `onProgress` is called after each submit; when it returns false
   /// no new sample starts, those in flight finish, and render returns false with a valid film.
   bool render(const Camera& camera, Film& film, SampleRange range,

@@ -29,6 +29,7 @@ enum class Masking : uint32_t { Correlated, Separable };
 enum class Fresnel : uint32_t { Gltf, Exact, Schlick };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
+inline constexpr float kNoClamp = std::numeric_limits<float>::infinity();
 
 /// Everything the image depends on besides scene, camera and sample range.
 struct EstimatorSettings {
@@ -47,6 +48,8 @@ struct EstimatorSettings {
   Masking masking = Masking::Correlated;
   Fresnel fresnel = Fresnel::Gltf;
   bool multipleScattering = true; ///< between the facets of rough surfaces; false loses their light
+  /// Radiance of a sample's brightest channel; brighter samples are scaled down to it, which removes light.
+  float clamp = kNoClamp;
   uint64_t seed = 0;
 };
 

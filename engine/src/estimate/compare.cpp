@@ -8,6 +8,7 @@
 
 #include "estimate/compare_verdict.hpp"
 #include "estimate/flip.hpp"
+#include "estimate/hdr_flip.hpp"
 #include "isophote/error.hpp"
 
 namespace isophote {
@@ -87,6 +88,13 @@ Comparison compareImages(const Image& test, const Image& reference) {
   comparison.flipMap = estimate::flipMap(shownA, shownB, test.width, test.height);
   comparison.flip =
       std::accumulate(comparison.flipMap.begin(), comparison.flipMap.end(), 0.0) / static_cast<double>(pixels);
+  std::vector<glm::vec3> linearA(pixels), linearB(pixels);
+  for (size_t i = 0; i < pixels; ++i) {
+    linearA[i] = a.at(i);
+    linearB[i] = b.at(i);
+  }
+  const std::vector<float> hdr = estimate::hdrFlipMap(linearA, linearB, test.width, test.height);
+  comparison.hdrFlip = std::accumulate(hdr.begin(), hdr.end(), 0.0) / static_cast<double>(pixels);
   comparison.verdict = estimate::compareStatistically(test, reference);
   return comparison;
 }

@@ -1,5 +1,6 @@
 #include "estimate/compare_student.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace isophote::estimate {
@@ -42,6 +43,32 @@ double studentTwoSided(double t, double dof) {
   const double x = dof / (dof + t * t);
   if (x < (a + 1) / (a + b + 2)) return incompleteBeta(x, a, b);
   return 1 - incompleteBeta(t * t / (dof + t * t), b, a);
+}
+
+double studentQuantile(double p, double dof) {
+  double low = 0;
+  double high = 1;
+  while (studentTwoSided(high, dof) > p) high *= 2;
+  for (int i = 0; i < 100 && high - low > 1e-13 * high; ++i) {
+    const double middle = (low + high) / 2;
+    (studentTwoSided(middle, dof) > p ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+double normalDeviation(double p) {
+  if (!(p < 1)) return 0;
+  const double logP = std::log(std::max(p, 1e-300));
+  // Newton's iteration on log erfc(z / sqrt 2) = log p, which is concave; erfc(z / sqrt 2) <= exp(-z^2 / 2), so that it
+  // begins beyond the root and comes down to it.
+  double z = std::sqrt(-2 * logP);
+  for (int i = 0; i < 50; ++i) {
+    const double tail = std::erfc(z / std::sqrt(2.0));
+    const double step = (std::log(tail) - logP) * tail / (std::sqrt(2 / M_PI) * std::exp(-0.5 * z * z));
+    z += step;
+    if (std::abs(step) < 1e-12 * (1 + z)) break;
+  }
+  return z;
 }
 
 } // namespace isophote::estimate

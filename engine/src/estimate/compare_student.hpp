@@ -10,4 +10,10 @@ namespace isophote::estimate {
 /// 1e-10 down to 1e-300, measured in tests/unit/compare_student_test.cpp.
 [[nodiscard]] double studentTwoSided(double t, double dof);
 
+/// The t with studentTwoSided(t, dof) = p. @param p  in (0, 1]
+[[nodiscard]] double studentQuantile(double p, double dof);
+
+/// The z with P(|Z| >= z) = p of the standard normal distribution; of p below 1e-300 that of 1e-300.
+[[nodiscard]] double normalDeviation(double p);
+
 } // namespace isophote::estimate

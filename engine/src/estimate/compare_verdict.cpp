@@ -126,7 +126,9 @@ void testBlocks(Grid grid, Tally& tally) {
   }
 }
 
-void testChannel(const Estimate& a, const Estimate& b, uint32_t width, uint32_t height, Tally& tally) {
+/// @param deviations  of the channel, one each three values
+void testChannel(const Estimate& a, const Estimate& b, uint32_t width, uint32_t height, Tally& tally,
+                 float* deviations) {
   Grid blocks = coarserGrid(width, height);
   for (uint32_t y = 0; y < height; ++y) {
     for (uint32_t x = 0; x < width; ++x) {
@@ -135,7 +137,9 @@ void testChannel(const Estimate& a, const Estimate& b, uint32_t width, uint32_t 
         ++tally.inconclusive;
         continue;
       }
-      tally.add(cell->p(), tally.smallPixels);
+      const double p = cell->p();
+      deviations[3 * (size_t(y) * width + x)] = static_cast<float>(std::copysign(normalDeviation(p), cell->difference));
+      tally.add(p, tally.smallPixels);
       blocks.add(x, y, *cell, 1);
     }
   }
@@ -146,12 +150,15 @@ void testChannel(const Estimate& a, const Estimate& b, uint32_t width, uint32_t 
 
 std::optional<Verdict> compareStatistically(const Image& a, const Image& b) {
   Tally tally;
+  Verdict verdict;
+  verdict.deviations.assign(size_t{3} * a.width * a.height, 0);
   constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
-  for (const char* color : kColors) {
+  for (size_t c = 0; c < kColors.size(); ++c) {
+    const char* color = kColors[c];
     const auto estimateA = findEstimate(a, color);
     const auto estimateB = findEstimate(b, color);
     if (!estimateA || !estimateB) return std::nullopt;
-    testChannel(*estimateA, *estimateB, a.width, a.height, tally);
+    testChannel(*estimateA, *estimateB, a.width, a.height, tally, verdict.deviations.data() + c);
   }
   const double tests = std::max(1.0, static_cast<double>(tally.tests));
   const double significance = -std::expm1(std::log1p(-kFamilySignificance) / tests);
@@ -159,7 +166,7 @@ std::optional<Verdict> compareStatistically(const Image& a, const Image& b) {
     return static_cast<uint64_t>(std::count_if(small.begin(), small.end(), [&](double p) { return p < significance; }));
   };
   const double pixels = static_cast<double>(kColors.size()) * a.width * a.height;
-  Verdict verdict;
+  verdict.criticalDeviation = normalDeviation(significance);
   verdict.p = tally.smallest >= 1 ? 1 : -std::expm1(tests * std::log1p(-tally.smallest));
   verdict.passingFraction = 1 - static_cast<double>(failing(tally.smallPixels) + tally.inconclusive) / pixels;
   verdict.failingBlocks = failing(tally.smallBlocks);

@@ -48,7 +48,8 @@ Json headOf(const Checkpoint& checkpoint) {
           {"seconds", checkpoint.seconds},
           {"film", io::filmHead(checkpoint.sums)},
           {"replicate_bytes", checkpoint.sums.replicates.size()},
-          {"aov_bytes", checkpoint.sums.aovs.size()}};
+          {"aov_bytes", checkpoint.sums.aovs.size()},
+          {"clamped_bytes", checkpoint.sums.clamped.size()}};
 }
 
 Checkpoint fromHead(const Json& head) {
@@ -86,6 +87,7 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& checkp
   out.write(head.data(), head.size());
   out.write(checkpoint.sums.replicates.data(), checkpoint.sums.replicates.size());
   out.write(checkpoint.sums.aovs.data(), checkpoint.sums.aovs.size());
+  out.write(checkpoint.sums.clamped.data(), checkpoint.sums.clamped.size());
   out.commit();
 }
 
@@ -98,13 +100,19 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
     if (length > bytes.size() - start) throw std::runtime_error("the head is longer than the file");
     const Json head = Json::parse(bytes.data() + start, bytes.data() + start + length);
     Checkpoint checkpoint = fromHead(head);
-    const size_t replicates = head.at("replicate_bytes");
-    const size_t aovs = head.at("aov_bytes");
-    const size_t film = bytes.size() - start - length;
-    if (replicates > film || aovs != film - replicates) throw std::runtime_error("the film is of another size");
     const auto* at = reinterpret_cast<const std::byte*>(bytes.data()) + start + length;
-    checkpoint.sums.replicates.assign(at, at + replicates);
-    checkpoint.sums.aovs.assign(at + replicates, at + replicates + aovs);
+    size_t left = bytes.size() - start - length;
+    const auto take = [&](const char* size, std::vector<std::byte>& to) {
+      const size_t count = head.at(size);
+      if (count > left) throw std::runtime_error("the film is of another size");
+      to.assign(at, at + count);
+      at += count;
+      left -= count;
+    };
+    take("replicate_bytes", checkpoint.sums.replicates);
+    take("aov_bytes", checkpoint.sums.aovs);
+    take("clamped_bytes", checkpoint.sums.clamped);
+    if (left != 0) throw std::runtime_error("the film is of another size");
     return checkpoint;
   } catch (const std::exception& error) {
     throw SceneError(file.string(), "", std::string("a checkpoint: ") + error.what());

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kAttribute = "isophote.sums";
 constexpr size_t kReplicateWords = gpu::kReplicateCount * sizeof(gpu::ReplicateSum) / sizeof(uint32_t);
 constexpr size_t kAovWords = sizeof(gpu::AovSum) / sizeof(uint32_t);
+constexpr size_t kClampedWords = sizeof(gpu::ClampedSum) / sizeof(uint32_t);
 
 std::string layerName(const char* group, size_t word) { return fmt::format("sums.{}.{:02}", group, word); }
 
@@ -53,6 +54,7 @@ void storeSums(Image& image, const FilmSums& sums) {
   image.attributes[kAttribute] = io::filmHead(sums).dump();
   scatter(sums.replicates, kReplicateWords, "replicates", image);
   if (!sums.aovs.empty()) scatter(sums.aovs, kAovWords, "aovs", image);
+  if (!sums.clamped.empty()) scatter(sums.clamped, kClampedWords, "clamped", image);
 }
 
 FilmSums storedSums(const Image& image) {
@@ -72,6 +74,7 @@ FilmSums storedSums(const Image& image) {
   }
   sums.replicates = gather(image, kReplicateWords, "replicates");
   if (sums.options.aovs) sums.aovs = gather(image, kAovWords, "aovs");
+  if (sums.options.ledger) sums.clamped = gather(image, kClampedWords, "clamped");
   return sums;
 }
 

@@ -24,8 +24,7 @@ const std::vector<float>& plane(const Image& image, const char* name) {
 
 } // namespace
 
-void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation,
-              Transfer transfer) {
+std::string encodePng(const Image& image, float exposureEv, ToneMap operation, Transfer transfer) {
   const std::vector<float>& r = plane(image, "R");
   const std::vector<float>& g = plane(image, "G");
   const std::vector<float>& b = plane(image, "B");
@@ -36,7 +35,7 @@ void writePng(const std::filesystem::path& file, const Image& image, float expos
   // codes turn 8 bits into at most 9.
   constexpr uint64_t kMaxRawBytes = (3ull << 29) / 9 * 8;
   const uint64_t raw = (uint64_t(image.width) * components + 1) * image.height;
-  if (raw > kMaxRawBytes) throw OutputError(file.string() + ": too many pixels for a PNG; write .exr");
+  if (raw > kMaxRawBytes) throw OutputError("too many pixels for a PNG; write .exr");
 
   const float exposure = std::exp2(exposureEv);
   const size_t pixels = size_t(image.width) * image.height;
@@ -61,7 +60,18 @@ void writePng(const std::filesystem::path& file, const Image& image, float expos
   const int stride = static_cast<int>(image.width * components);
   if (stbi_write_png_to_func(append, &encoded, width, static_cast<int>(image.height), static_cast<int>(components),
                              bytes.data(), stride) == 0) {
-    throw OutputError(file.string() + ": cannot encode as PNG");
+    throw OutputError("cannot encode as PNG");
+  }
+  return encoded;
+}
+
+void writePng(const std::filesystem::path& file, const Image& image, float exposureEv, ToneMap operation,
+              Transfer transfer) {
+  std::string encoded;
+  try {
+    encoded = encodePng(image, exposureEv, operation, transfer);
+  } catch (const OutputError& error) {
+    throw OutputError(file.string() + ": " + error.what());
   }
   writeFileAtomically(file, encoded);
 }

@@ -44,6 +44,9 @@ Film::Film(const Device& device, const FilmOptions& options) : impl_(std::make_u
   if (options.aovs) {
     impl_->aovs = gpu::Buffer(device, pixels * sizeof(gpu::AovSum), gpu::Memory::Device, "film.aovs");
   }
+  if (options.ledger) {
+    impl_->clamped = gpu::Buffer(device, pixels * sizeof(gpu::ClampedSum), gpu::Memory::Device, "film.clamped");
+  }
   impl_->commands.emplace(device, 1, "film");
   clear();
 }
@@ -54,12 +57,13 @@ Film::~Film() = default;
 
 const FilmOptions& Film::options() const { return impl_->options; }
 
-uint64_t Film::bytes() const { return impl_->replicates.bytes() + impl_->aovs.bytes(); }
+uint64_t Film::bytes() const { return impl_->replicates.bytes() + impl_->aovs.bytes() + impl_->clamped.bytes(); }
 
 void Film::clear() {
   impl_->commands->begin();
   impl_->commands->fill(impl_->replicates, 0);
   if (impl_->aovs.bytes() != 0) impl_->commands->fill(impl_->aovs, 0);
+  if (impl_->clamped.bytes() != 0) impl_->commands->fill(impl_->clamped, 0);
   impl_->commands->submitAndWait();
   impl_->scale.reset();
 }
@@ -83,17 +87,20 @@ FilmSums Film::sums() const {
   }
   sums.replicates = readAll(*impl_->device, impl_->replicates);
   sums.aovs = readAll(*impl_->device, impl_->aovs);
+  sums.clamped = readAll(*impl_->device, impl_->clamped);
   return sums;
 }
 
 void Film::restore(const FilmSums& sums) {
   const FilmOptions& own = impl_->options;
   if (sums.options.width != own.width || sums.options.height != own.height || !(sums.options.crop == own.crop) ||
-      sums.replicates.size() != impl_->replicates.bytes() || sums.aovs.size() != impl_->aovs.bytes()) {
+      sums.replicates.size() != impl_->replicates.bytes() || sums.aovs.size() != impl_->aovs.bytes() ||
+      sums.clamped.size() != impl_->clamped.bytes()) {
     throw UsageError("the samples are of an image of another size, crop or set of layers");
   }
   gpu::writeBuffer(*impl_->device, impl_->replicates, 0, sums.replicates);
   if (!sums.aovs.empty()) gpu::writeBuffer(*impl_->device, impl_->aovs, 0, sums.aovs);
+  if (!sums.clamped.empty()) gpu::writeBuffer(*impl_->device, impl_->clamped, 0, sums.clamped);
   impl_->scale.reset();
   if (sums.radiancePerUnit > 0) impl_->scale = {sums.radiancePerUnit, sums.lengthPerUnit, sums.worldOrigin};
 }

@@ -82,6 +82,24 @@ void resolveAovs(const FilmSums& film, Image& image) {
   }
 }
 
+// Mean radiance that clamping took from a sample of each pixel; after resolveRadiance.
+void resolveClamped(const FilmSums& film, Image& image) {
+  const auto* sums = reinterpret_cast<const gpu::ClampedSum*>(film.clamped.data());
+  const size_t pixels = film.clamped.size() / sizeof(gpu::ClampedSum);
+  const std::vector<float> counts = image.find("sampleCount.Y")->values;
+  const size_t first = image.channels.size();
+  for (const char* name : {"clamped.R", "clamped.G", "clamped.B"})
+    image.channels.push_back({name, std::vector<float>(pixels)});
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    if (counts[pixel] == 0) continue;
+    const int64_t removed[3] = {sums[pixel].red, sums[pixel].green, sums[pixel].blue};
+    for (size_t c = 0; c < 3; ++c) {
+      image.channels[first + c].values[pixel] =
+          static_cast<float>(static_cast<double>(removed[c]) * film.radiancePerUnit / double(counts[pixel]));
+    }
+  }
+}
+
 } // namespace
 
 Image Film::resolve() const {
@@ -90,6 +108,7 @@ Image Film::resolve() const {
   image.height = impl_->cropHeight;
   const FilmSums film = sums();
   resolveRadiance(film, image);
+  if (!film.clamped.empty()) resolveClamped(film, image);
   if (!film.aovs.empty()) resolveAovs(film, image);
   return image;
 }

@@ -35,6 +35,12 @@ void add(gpu::AovSum& sum, const gpu::AovSum& other) {
   addTo(sum.count, other.count);
 }
 
+void add(gpu::ClampedSum& sum, const gpu::ClampedSum& other) {
+  addTo(sum.red, other.red);
+  addTo(sum.green, other.green);
+  addTo(sum.blue, other.blue);
+}
+
 template <class T> void addItems(std::vector<std::byte>& sums, const std::vector<std::byte>& others) {
   for (size_t at = 0; at < sums.size(); at += sizeof(T)) {
     T sum;
@@ -55,7 +61,7 @@ bool sameScale(const FilmSums& a, const FilmSums& b) {
 void addSums(FilmSums& sums, const FilmSums& other) {
   if (sums.options.width != other.options.width || sums.options.height != other.options.height ||
       !(sums.options.crop == other.options.crop) || sums.replicates.size() != other.replicates.size() ||
-      sums.aovs.size() != other.aovs.size()) {
+      sums.aovs.size() != other.aovs.size() || sums.clamped.size() != other.clamped.size()) {
     throw UsageError("images of different size, crop or layers");
   }
   if (!(other.radiancePerUnit > 0)) return; // no samples
@@ -67,6 +73,7 @@ void addSums(FilmSums& sums, const FilmSums& other) {
   FilmSums total = sums; // the sums are as they were where one overflows
   addItems<gpu::ReplicateSum>(total.replicates, other.replicates);
   addItems<gpu::AovSum>(total.aovs, other.aovs);
+  addItems<gpu::ClampedSum>(total.clamped, other.clamped);
   sums = std::move(total);
 }
 

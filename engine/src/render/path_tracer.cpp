@@ -262,12 +262,15 @@ PathTracer::PathTracer(const Device& device, const GpuScene& scene, const Estima
   if (estimator.maxDepth == kUnlimitedDepth && !estimator.russianRoulette) {
     throw UsageError("unlimited depth needs Russian roulette: without it a path in a closed lossless scene never ends");
   }
+  if (!(estimator.clamp > 0)) throw UsageError("clamp: a sample's largest radiance must be positive");
   impl_ = std::make_unique<Impl>(device, scene, estimator, execution);
 }
 
 PathTracer::PathTracer(PathTracer&&) noexcept = default;
 PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
 PathTracer::~PathTracer() = default;
+
+void PathTracer::setSeed(uint64_t seed) { impl_->estimator.seed = seed; }
 
 void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   if (impl_->film != nullptr) throw Error("a render is under way: finish or cancel it first");

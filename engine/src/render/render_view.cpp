@@ -34,6 +34,7 @@ gpu::RenderView renderView(const GpuScene::Impl& scene, Film::Impl& film, const 
   view.filterTable = filterTable;
   view.replicates = film.replicates.address();
   view.aovs = film.aovs.address();
+  view.clamped = film.clamped.address();
   view.imageSize = {film.options.width, film.options.height};
   view.cropOrigin = {crop.x0, crop.y0};
   view.cropSize = {film.cropWidth, film.cropHeight};
@@ -46,6 +47,7 @@ gpu::RenderView renderView(const GpuScene::Impl& scene, Film::Impl& film, const 
   view.seed = {static_cast<uint32_t>(settings.seed), static_cast<uint32_t>(settings.seed >> 32)};
   view.radianceScale = static_cast<float>(1.0 / scale.radiancePerUnit);
   view.distanceScale = static_cast<float>(1.0 / scale.lengthPerUnit);
+  view.sampleLimit = settings.clamp;
   view.workEnd = uint64_t{view.paddedPixelCount} * (range.last - range.first);
   return view;
 }

@@ -43,6 +43,7 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   constants.push_back({setting_id::kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({setting_id::kShadowTransmission, static_cast<uint32_t>(settings.shadowTransmission)});
   constants.push_back({setting_id::kRussianRoulette, settings.russianRoulette ? 1u : 0u});
+  constants.push_back({setting_id::kClamp, settings.clamp < kNoClamp ? 1u : 0u});
   return constants;
 }
 

@@ -1,0 +1,50 @@
+// Renders one scene with many settings, again and again.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "isophote/path_tracer.hpp"
+#include "scene_source.hpp"
+#include "setting_table.hpp"
+
+namespace isophote::cli {
+
+struct BenchRender {
+  Image image;
+  ErrorEstimate error;
+  double seconds = 0; ///< of rendering, without the compilation of kernels
+};
+
+/// Kernels are compiled once for each set of settings and kept.
+class Workbench {
+public:
+  /// @param goOn  asked now and then; false ends the render under way, which then yields nothing
+  Workbench(const Device& device, const Scene& scene, const View& view, std::function<bool()> goOn);
+
+  /// @throws UsageError where the settings do not go together
+  [[nodiscard]] std::optional<BenchRender> render(const Settings& settings, uint64_t seed, SampleRange samples);
+
+  /// Adds samples to `film` until `until` says so; for the reference.
+  /// @return false where `goOn` ended it
+  bool renderMore(const Settings& settings, uint64_t seed, SampleRange samples, Film& film);
+
+  [[nodiscard]] Film makeFilm() const;
+  [[nodiscard]] const View& view() const { return view_; }
+  [[nodiscard]] double compileSeconds() const;
+
+private:
+  [[nodiscard]] PathTracer& tracer(const Settings& settings);
+
+  const Device& device_;
+  GpuScene scene_;
+  View view_;
+  std::function<bool()> goOn_;
+  std::map<std::string, std::unique_ptr<PathTracer>> tracers_;
+};
+
+} // namespace isophote::cli
