@@ -201,7 +201,7 @@ vec3 shadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo
 }
 
 /// The clearcoat's: it has a normal map of its own, or none.
-vec3 clearcoatShadingNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
+vec3 clearcoatNormal(const SceneRef scene, const SurfaceHit surface, const vec3 wo) {
   const uint slot =
       kHasNormalMaps ? MaterialRef(scene.view.materials).items[surface.material].clearcoatNormalSlot : kInvalidIndex;
   return bumpedNormal(scene, surface, slot, wo);
@@ -211,7 +211,7 @@ vec3 clearcoatShadingNormal(const SceneRef scene, const SurfaceHit surface, cons
 void setClearcoatNormal(inout SurfaceMaterial material, const SceneRef scene, const SurfaceHit surface, const vec3 wo,
                         const Frame frame) {
   if (material.bsdf.coat.amount <= 0.0) return;
-  material.bsdf.coat.normalLocal = toLocal(frame, clearcoatShadingNormal(scene, surface, wo));
+  material.bsdf.coat.normalLocal = toLocal(frame, clearcoatNormal(scene, surface, wo));
 }
 
 #endif
