@@ -179,6 +179,11 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
         {"exact", "on"},
         {"leaves_out", "light scattered more than once between the facets of rough surfaces"}};
   }
+  if (settings.estimator.fresnel == Fresnel::Schlick) {
+    json["fresnel"] = {{"value", "schlick"},
+                       {"exact", "exact"},
+                       {"leaves_out", "the difference of glass's reflectance from Schlick's approximation"}};
+  }
   return json;
 }
 

@@ -37,7 +37,7 @@ void expectLossless(std::initializer_list<float> roughnesses, std::initializer_l
   for (const char* name : {"metal", "plastic", "thin glass"}) {
     for (const float roughness : roughnesses) {
       for (const float strength : strengths) {
-        for (const double cosine : {1.0, 0.5, 0.05}) {
+        for (const double cosine : {1.0, 0.05}) {
           for (const double azimuth : azimuths) {
             BsdfCase c = test::bsdfMaterial(glm::vec3(1), name == std::string("metal") ? 1.0f : 0.0f, roughness);
             if (name == std::string("thin glass")) {
@@ -55,7 +55,7 @@ void expectLossless(std::initializer_list<float> roughnesses, std::initializer_l
       }
     }
   }
-  const auto albedo = albedos(cases, 10000);
+  const auto albedo = albedos(cases, 6000);
   for (size_t i = 0; i < cases.size(); ++i) EXPECT_NEAR(albedo[i], 1, 0.01) << labels[i];
 }
 
