@@ -16,7 +16,7 @@ struct LayerPassage {
   float broad;  // of diffuse lobes
 };
 
-/// Where a cosine and a layer's roughness lie in its table.
+/// Where a cosine and a layer's row lie in its table.
 struct LayerCell {
   uint row;
   float rowFraction;
@@ -24,9 +24,10 @@ struct LayerCell {
   float columnFraction;
 };
 
-LayerCell layerCell(const float mu, const float roughness) {
+/// @param position of the row, in [0, 1]: a clearcoat's roughness, a sheen's sheenRow
+LayerCell layerCell(const float mu, const float position) {
   const float column = sqrt(clamp(mu, 0.0, 1.0)) * float(kLayerMuCount - 1u);
-  const float row = clamp(roughness, 0.0, 1.0) * float(kLayerRoughnessCount - 1u);
+  const float row = clamp(position, 0.0, 1.0) * float(kLayerRoughnessCount - 1u);
   LayerCell cell;
   cell.column = min(uint(column), kLayerMuCount - 2u);
   cell.columnFraction = column - float(cell.column);
@@ -35,7 +36,7 @@ LayerCell layerCell(const float mu, const float roughness) {
   return cell;
 }
 
-/// One of the table's functions of mu and the layer's roughness, bilinear.
+/// One of the table's functions of mu and the layer's row, bilinear.
 float readLayer(FloatRef table, const uint start, const LayerCell cell) {
   const uint low = start + cell.row * kLayerMuCount + cell.column;
   const uint high = low + kLayerMuCount;
@@ -44,12 +45,12 @@ float readLayer(FloatRef table, const uint start, const LayerCell cell) {
              cell.rowFraction);
 }
 
-/// The coupling g(mu) with a microfacet base of roughness `baseRoughness`, trilinear.
-float readLayerNarrow(FloatRef table, const LayerCell cell, const float baseRoughness) {
-  const float position = clamp(baseRoughness, 0.0, 1.0) * float(kLayerBaseCount - 1u);
+/// One of the table's functions of mu, the layer's row and another layer's roughness, trilinear.
+float readLayerWith(FloatRef table, const uint start, const LayerCell cell, const float roughness) {
+  const float position = clamp(roughness, 0.0, 1.0) * float(kLayerBaseCount - 1u);
   const uint b = min(uint(position), kLayerBaseCount - 2u);
   const uint rowStride = kLayerBaseCount * kLayerMuCount;
-  const uint first = kLayerNarrow + cell.row * rowStride + b * kLayerMuCount + cell.column;
+  const uint first = start + cell.row * rowStride + b * kLayerMuCount + cell.column;
   float rows[2];
   for (uint i = 0u; i < 2u; ++i) {
     const uint low = first + i * rowStride;
@@ -60,8 +61,13 @@ float readLayerNarrow(FloatRef table, const LayerCell cell, const float baseRoug
   return mix(rows[0], rows[1], cell.rowFraction);
 }
 
-/// What the table says at the row's roughness without a direction: x the mean albedo, yz the covariances of the albedo
-/// with the integrals (A, B) of a GGX lobe of roughness `baseRoughness`.
+/// The coupling g(mu) with a microfacet base of roughness `baseRoughness`.
+float readLayerNarrow(FloatRef table, const LayerCell cell, const float baseRoughness) {
+  return readLayerWith(table, kLayerNarrow, cell, baseRoughness);
+}
+
+/// What the table says of the row without a direction: x the mean albedo, yz the covariances of the albedo with the
+/// integrals (A, B) of a GGX lobe of roughness `baseRoughness`.
 vec3 readLayerMeans(FloatRef table, const LayerCell cell, const float baseRoughness) {
   const float position = clamp(baseRoughness, 0.0, 1.0) * float(kLayerBaseCount - 1u);
   const uint b = min(uint(position), kLayerBaseCount - 2u);
@@ -76,6 +82,25 @@ vec3 readLayerMeans(FloatRef table, const LayerCell cell, const float baseRoughn
   return mix(rows[0], rows[1], cell.rowFraction);
 }
 
+/// The same of the sheen's light that a clearcoat of roughness `coatRoughness` above it takes: the mean of kCoatedSheen
+/// and its covariances.
+vec3 readCoatedSheenMeans(FloatRef table, const LayerCell cell, const float coatRoughness, const float baseRoughness) {
+  const vec2 position = clamp(vec2(coatRoughness, baseRoughness), 0.0, 1.0) * float(kLayerBaseCount - 1u);
+  const uvec2 low = min(uvec2(position), uvec2(kLayerBaseCount - 2u));
+  const vec2 fraction = position - vec2(low);
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < 8u; ++i) {
+    const uvec3 corner = uvec3(i & 1u, (i >> 1u) & 1u, i >> 2u);
+    const float weight = (corner.x == 1u ? cell.rowFraction : 1.0 - cell.rowFraction) *
+                         (corner.y == 1u ? fraction.x : 1.0 - fraction.x) *
+                         (corner.z == 1u ? fraction.y : 1.0 - fraction.y);
+    const uint pair = (cell.row + corner.x) * kLayerBaseCount + low.x + corner.y;
+    const uint covariance = kCoatedSheenCovariance + 2u * (pair * kLayerBaseCount + low.y + corner.z);
+    sum += weight * vec3(table.items[kCoatedSheenMean + pair], table.items[covariance], table.items[covariance + 1u]);
+  }
+  return sum;
+}
+
 /// The base below a layer: of its diffuse lobe the microfacet coat that it lies under already.
 struct LayerBase {
   float roughness;
@@ -84,15 +109,19 @@ struct LayerBase {
   float meanTransmission; // of that coat, > 0
 };
 
-/// @param cellO, cellI of wo and wi at the layer's roughness
+/// Mean over the hemisphere of what layers pass times what the coat of the base passes, over the mean of the latter.
+/// @param lost of light on its way through the layers, as readLayerMeans has it
+float meanPassed(const vec3 lost, const LayerBase base) {
+  return 1.0 - lost.x + (base.f0 * lost.y + base.f90 * lost.z) / base.meanTransmission;
+}
+
+/// @param cellO, cellI of wo and wi in the layer's row
 /// @param amount       coverage of the layer, in [0, 1]
 LayerPassage layerPassage(FloatRef table, const LayerCell cellO, const LayerCell cellI, const float amount,
                           const LayerBase base) {
   const float passedO = 1.0 - readLayer(table, kLayerAlbedo, cellO);
   const float passedI = 1.0 - readLayer(table, kLayerAlbedo, cellI);
-  const vec3 means = readLayerMeans(table, cellO, base.roughness);
-  // Mean of the product of both coats' transmissions over the mean of the lower one's.
-  const float mean = 1.0 - means.x + (base.f0 * means.y + base.f90 * means.z) / base.meanTransmission;
+  const float mean = meanPassed(readLayerMeans(table, cellO, base.roughness), base);
   const float narrow = readLayerNarrow(table, cellO, base.roughness) * readLayerNarrow(table, cellI, base.roughness);
   LayerPassage passage;
   passage.narrow = 1.0 + amount * (narrow - 1.0);

@@ -332,6 +332,16 @@ float coatTransmission(const MetallicRoughness m, const vec2 albedo, const float
   return max(1.0 - (m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost), 0.0);
 }
 
+// The same in one direction. Schlick's curve follows a film only roughly: no channel of the film itself may reflect
+// what the coat lets through.
+float coatTransmissionAt(const SceneRef scene, const MetallicRoughness m, const float mu, const vec2 albedo,
+                         const float multiple, const float lost) {
+  const float passed = coatTransmission(m, coatAlbedo(scene, m, albedo, mu), multiple, lost);
+  if (!hasFilm(m)) return passed;
+  const vec3 bare = fresnelSchlick(m.glassF0, vec3(m.glassF90), mu);
+  return min(passed, 1.0 - largest(mix(bare, filmReflectance(m.film, mu, m.glassF0), m.film.amount)));
+}
+
 // No facet reflects nothing at all: an albedo of 0 is that of a scene without facets, whose table is absent.
 float lostBetweenFacets(const vec2 albedo) {
   const float kept = albedo.x + albedo.y;
@@ -381,7 +391,7 @@ BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const vec
   shares.multiple = m.metallic * multipleReflectance(metalReflectance(m, 1.0), vec3(1.0), kept) +
                     m.diffuse * multipleReflectance(m.glassF0, vec3(m.glassF90), kept);
   shares.coatMultiple = multipleReflectance(vec3(m.dielectricF0), vec3(m.dielectricF90), kept).x;
-  shares.coat = coatTransmission(m, coatAlbedo(scene, m, shares.albedo, muO), shares.coatMultiple, shares.lost);
+  shares.coat = coatTransmissionAt(scene, m, muO, shares.albedo, shares.coatMultiple, shares.lost);
   const vec2 meanCoat = coatMeanAlbedo(scene, m, mean);
   shares.meanCoat =
       max(coatTransmission(m, meanCoat, shares.coatMultiple, lostBetweenFacets(mean)), kMinCoatTransmission);
@@ -413,8 +423,7 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
                              const vec3 woLocal, const vec3 wiLocal) {
   const vec2 albedo = facetAlbedo(scene, m, wiLocal);
   const float lost = lostBetweenFacets(albedo);
-  const float entering =
-      coatTransmission(m, coatAlbedo(scene, m, albedo, wiLocal.z), shares.coatMultiple, lost);
+  const float entering = coatTransmissionAt(scene, m, wiLocal.z, albedo, shares.coatMultiple, lost);
   const float cosine = kInvPi * wiLocal.z;
   BaseValue value;
   value.facets = vec3(0.0);
@@ -486,10 +495,9 @@ BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, 
   }
   if (kHasDiffuseTransmission && m.behind.share > 0.0) { // both faces are coated alike
     const vec2 albedo = facetAlbedo(scene, m, wiLocal);
-    const float leaving = coatTransmission(m, coatAlbedo(scene, m, albedo, -wiLocal.z), shares.coatMultiple,
-                                           lostBetweenFacets(albedo));
-    value.diffuse +=
-        crossingReflectance(m.behind) * (m.diffuse * (shares.coat * leaving / shares.meanCoat) * cosine);
+    const float leaving =
+        coatTransmissionAt(scene, m, -wiLocal.z, albedo, shares.coatMultiple, lostBetweenFacets(albedo));
+    value.diffuse += crossingReflectance(m.behind) * (m.diffuse * (shares.coat * leaving / shares.meanCoat) * cosine);
   }
   value.pdfSolidAngle += shares.behindProbability * cosine;
   return value;

@@ -16,6 +16,12 @@ float sheenAlpha(const Sheen sheen) { return max(sheen.roughness * sheen.roughne
 /// Coverage of what lies below: that of the brightest channel, so that no channel gains energy.
 float sheenAmount(const Sheen sheen) { return max(sheen.color.x, max(sheen.color.y, sheen.color.z)); }
 
+/// Position of the sheen's roughness among the rows of its table, denser where the lobe changes fastest with it.
+float sheenRow(const Sheen sheen) {
+  const float least = sqrt(kMinSheenAlpha);
+  return sqrt(max(sheen.roughness - least, 0.0) / (1.0 - least));
+}
+
 /// Density of fibre normals at the squared sine of their angle to the surface's.
 /// Source: Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF", eq. 2.
 float charlieD(const float sinSquared, const float alpha) {

@@ -70,7 +70,7 @@ LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woL
   }
   float sheenShare = 0.0;
   if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
-    at.sheenCell = layerCell(woLocal.z, bsdf.sheen.roughness);
+    at.sheenCell = layerCell(woLocal.z, sheenRow(bsdf.sheen));
     const float albedo = readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, at.sheenCell);
     if (!bsdf.insideSolid) sheenShare = reachable * luminance(bsdf.sheen.color) * albedo;
     reachable *= 1.0 - sheenAmount(bsdf.sheen) * albedo;
@@ -92,10 +92,33 @@ float passageOutside(const SceneRef scene, const SurfaceBsdf bsdf, const LayersA
   }
   if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
     LayerCell cell = at.sheenCell;
-    if (bsdf.insideSolid) cell = layerCell(abs(wiLocal.z), bsdf.sheen.roughness);
+    if (bsdf.insideSolid) cell = layerCell(abs(wiLocal.z), sheenRow(bsdf.sheen));
     passed *= 1.0 - sheenAmount(bsdf.sheen) * readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, cell);
   }
   return passed;
+}
+
+// What a clearcoat and a sheen below it leave for the diffuse lobe to give back.
+float leftByBoth(const SceneRef scene, const SurfaceBsdf bsdf, const LayerCell coatCell, const LayerCell sheenCell) {
+  FloatRef sheenTable = FloatRef(scene.view.sheenTable);
+  const float coat = bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, coatCell);
+  const float sheen = readLayer(sheenTable, kLayerAlbedo, sheenCell) -
+                      bsdf.coat.amount * readLayerWith(sheenTable, kCoatedSheen, sheenCell, bsdf.coat.roughness);
+  return max(1.0 - coat - sheenAmount(bsdf.sheen) * sheen, 0.0);
+}
+
+// The diffuse lobe's passage through both, lossless as through one.
+float broadThroughBoth(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const LayerCell coatCellI,
+                       const LayerCell sheenCellI) {
+  FloatRef sheenTable = FloatRef(scene.view.sheenTable);
+  const float roughness = at.base.roughness;
+  const vec3 coat = readLayerMeans(FloatRef(scene.view.clearcoatTable), at.coatCell, roughness);
+  const vec3 sheen = readLayerMeans(sheenTable, at.sheenCell, roughness);
+  const vec3 coatedSheen = readCoatedSheenMeans(sheenTable, at.sheenCell, bsdf.coat.roughness, roughness);
+  const float amount = sheenAmount(bsdf.sheen);
+  const vec3 lost = bsdf.coat.amount * coat + amount * (sheen - bsdf.coat.amount * coatedSheen);
+  return leftByBoth(scene, bsdf, at.coatCell, at.sheenCell) * leftByBoth(scene, bsdf, coatCellI, sheenCellI) /
+         meanPassed(lost, at.base);
 }
 
 // What the layers leave of what the base scatters from wo to wi. Thin walls carry them on both sides, so that
@@ -107,21 +130,18 @@ LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const 
     return LayerPassage(passed, passed);
   }
   if (bsdf.insideSolid) return passage;
-  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
-    const float muCoat = abs(dot(bsdf.coat.normalLocal, wiLocal));
-    const LayerCell cell = layerCell(muCoat, bsdf.coat.roughness);
-    FloatRef table = FloatRef(scene.view.clearcoatTable);
-    passage = layerPassage(table, at.coatCell, cell, bsdf.coat.amount, at.base);
-    // Over a sheen, too, the coat must not pass more than T(wo): the mean in layerPassage knows the base alone.
-    if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0)
-      passage.broad = passageOfEither(table, at.coatCell, cell, bsdf.coat.amount);
+  const bool coated = kHasClearcoat && bsdf.coat.amount > 0.0;
+  LayerCell coatCell;
+  if (coated) {
+    coatCell = layerCell(abs(dot(bsdf.coat.normalLocal, wiLocal)), bsdf.coat.roughness);
+    passage = layerPassage(FloatRef(scene.view.clearcoatTable), at.coatCell, coatCell, bsdf.coat.amount, at.base);
   }
   if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
-    const LayerCell cell = layerCell(abs(wiLocal.z), bsdf.sheen.roughness);
+    const LayerCell cell = layerCell(abs(wiLocal.z), sheenRow(bsdf.sheen));
     const LayerPassage sheen =
         layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell, sheenAmount(bsdf.sheen), at.base);
     passage.narrow *= sheen.narrow;
-    passage.broad *= sheen.broad;
+    passage.broad = coated ? broadThroughBoth(scene, bsdf, at, coatCell, cell) : sheen.broad;
   }
   return passage;
 }
@@ -139,7 +159,7 @@ void addLayerLobes(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtW
                                 layerCell(abs(wiCoat.z), bsdf.coat.roughness), bsdf.coat.amount);
   }
   if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
-    const LayerCell cell = layerCell(wiLocal.z, bsdf.sheen.roughness);
+    const LayerCell cell = layerCell(wiLocal.z, sheenRow(bsdf.sheen));
     value.fCos += bsdf.sheen.color * (underCoat * evalSheen(FloatRef(scene.view.sheenTable), bsdf.sheen, at.sheenCell,
                                                             cell, woLocal, wiLocal));
     value.pdfSolidAngle += (1.0 - at.coatProbability) * at.sheenProbability * kInvTwoPi;

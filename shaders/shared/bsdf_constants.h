@@ -43,7 +43,8 @@ ISOPHOTE_CONST float kClearcoatF0 = 0.04f;
 ISOPHOTE_CONST float kMinSheenAlpha = 5e-3f;
 
 // Table of a layer over the base, see bsdf/layer.glsl: floats. Nodes of mu as in the GGX table, c; r stands for the
-// layer's roughness r / (kLayerRoughnessCount - 1), b for the base's b / (kLayerBaseCount - 1).
+// layer's row r / (kLayerRoughnessCount - 1), which is a clearcoat's roughness and sheenRow of a sheen's; b for the
+// base's roughness b / (kLayerBaseCount - 1).
 ISOPHOTE_CONST uint kLayerMuCount = 64u;
 ISOPHOTE_CONST uint kLayerRoughnessCount = 32u;
 ISOPHOTE_CONST uint kLayerBaseCount = 16u;
@@ -54,6 +55,15 @@ ISOPHOTE_CONST uint kLayerCovariance = kLayerMean + kLayerRoughnessCount; // [r]
 ISOPHOTE_CONST uint kLayerNarrow =
     kLayerCovariance + 2u * kLayerRoughnessCount * kLayerBaseCount; // [r][b][c] coupling with a microfacet base
 ISOPHOTE_CONST uint kLayerTableSize = kLayerNarrow + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount;
+
+// Behind the sheen's table: what it loses to a clearcoat above of roughness q / (kLayerBaseCount - 1).
+ISOPHOTE_CONST uint kCoatedSheen = kLayerTableSize; // [r][q][c] the mean of the larger of the coat's two albedos
+ISOPHOTE_CONST uint kCoatedSheenMean =
+    kCoatedSheen + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount; // [r][q] cosine-weighted mean of that
+ISOPHOTE_CONST uint kCoatedSheenCovariance =
+    kCoatedSheenMean + kLayerRoughnessCount * kLayerBaseCount; // [r][q][b][2] of it with GGX's (A, B)
+ISOPHOTE_CONST uint kSheenTableSize =
+    kCoatedSheenCovariance + 2u * kLayerRoughnessCount * kLayerBaseCount * kLayerBaseCount;
 
 // Tables of what one scattering by rough glass loses between its facets, see bsdf/glass_loss.glsl; one for each index,
 // behind each other. Each has two halves, for light that comes from the air and from the glass; each half

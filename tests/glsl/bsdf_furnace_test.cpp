@@ -16,6 +16,14 @@ struct Lossless {
   BsdfCase (*make)(float roughness);
 };
 
+BsdfCase halfTranslucentGlass(float roughness, Side side) {
+  BsdfCase c = test::glass(roughness, side);
+  c.transmission = 0.4f;
+  c.diffuseTransmission = 0.7f;
+  c.diffuseTransmissionColor = glm::vec3(1);
+  return c;
+}
+
 const Lossless kMaterials[] = {
     {"metal", [](float roughness) { return test::bsdfMaterial(glm::vec3(1), 1, roughness); }},
     {"dielectric", [](float roughness) { return test::bsdfMaterial(glm::vec3(1), 0, roughness); }},
@@ -40,6 +48,16 @@ const Lossless kMaterials[] = {
        c.specular = 0.5f;
        return c;
      }},
+    {"paper",
+     [](float roughness) {
+       BsdfCase c = test::leaf(roughness, 0.7f, glm::vec3(1));
+       c.baseColor = glm::vec3(1);
+       return c;
+     }},
+    {"glass with diffuse transmission from outside",
+     [](float roughness) { return halfTranslucentGlass(roughness, Side::Outside); }},
+    {"glass with diffuse transmission from inside",
+     [](float roughness) { return halfTranslucentGlass(roughness, Side::Inside); }},
 };
 
 // Mean of weight times eta^2, the directional albedo, by a rank-3 lattice (Roberts 2018). Off by less than 2e-3 against

@@ -21,6 +21,7 @@ struct LayersCase {
   float filmThickness;
   vec3 conductorN; // 0: none
   vec3 conductorK;
+  float diffuseTransmission; // of a thin wall, white
   vec3 wo;
   vec3 wi;
   float uLobe;

@@ -12,6 +12,9 @@ LayersResult probe(const LayersCase c) {
   setAnisotropy(bsdf.base, c.anisotropy, kInvalidIndex);
   if (c.conductorN.x > 0.0) setConductor(bsdf.base, c.conductorN, c.conductorK);
   setIridescence(bsdf.base, Iridescence(c.film, c.filmIor, c.filmThickness));
+  if (c.diffuseTransmission > 0.0) {
+    setDiffuseTransmission(bsdf.base, DiffuseTransmission(c.diffuseTransmission, vec3(1.0), 1.0), true);
+  }
   bsdf.coat = Clearcoat(c.coat, c.coatRoughness, c.coatNormal);
   bsdf.sheen = Sheen(c.sheenColor, c.sheenRoughness);
   LayersResult result;

@@ -79,7 +79,10 @@ std::vector<LayersCase> materials() {
   annealed.film = 1;
   annealed.filmIor = 1.8f;
   annealed.filmThickness = 150;
-  return {brushed,
+  LayersCase leaf = coated(velvet(bare(color, 0, 1), {0.3f, 0.8f, 0.2f}, 0.8f), 0.7f, 0.296875f);
+  leaf.diffuseTransmission = 0.6f;
+  return {leaf,
+          brushed,
           brushedPlastic,
           gold,
           soap,
@@ -98,6 +101,8 @@ oracle::LayeredSurface oracleSurface(const LayersCase& c) {
       glm::dvec3(c.baseColor), double(c.metallic), double(c.roughness), 1.5, double(c.specular), glm::dvec3(1));
   if (c.anisotropy > 0) base = oracle::withAnisotropy(base, double(c.anisotropy));
   if (c.conductorN.x > 0) base = oracle::withConductor(base, glm::dvec3(c.conductorN), glm::dvec3(c.conductorK));
+  if (c.diffuseTransmission > 0)
+    base = oracle::withDiffuseTransmission(base, double(c.diffuseTransmission), glm::dvec3(1), 1);
   if (c.film > 0) base = oracle::withFilm(base, {double(c.film), double(c.filmIor), double(c.filmThickness)});
   return {base,
           {double(c.coat), double(c.coatRoughness), glm::dvec3(c.coatNormal)},
@@ -150,12 +155,19 @@ std::vector<glm::dvec3> sampledAlbedos(const std::vector<LayersCase>& surfaces, 
 // The tables' bilinear reads leave 1% of the coupling where a cosine is above 0.05 (docs/bsdf.md).
 TEST(Layers, ValuesAndDensitiesMatchTheOracle) {
   std::mt19937 generator(1);
+  constexpr size_t kDirections = 100;
+  std::vector<LayersCase> cases;
   for (const LayersCase& material : materials()) {
-    const oracle::LayeredSurface expected = oracleSurface(material);
-    std::vector<LayersCase> cases(100, material);
-    for (LayersCase& c : cases) drawDirections(c, generator);
-    const auto results = probeLayers(cases);
-    for (size_t i = 0; i < cases.size(); ++i) {
+    for (size_t i = 0; i < kDirections; ++i) {
+      LayersCase& c = cases.emplace_back(material);
+      drawDirections(c, generator);
+      if (c.diffuseTransmission > 0 && i % 2 == 0) c.wi.z = -c.wi.z;
+    }
+  }
+  const auto results = probeLayers(cases);
+  for (size_t first = 0; first < cases.size(); first += kDirections) {
+    const oracle::LayeredSurface expected = oracleSurface(cases[first]);
+    for (size_t i = first; i < first + kDirections; ++i) {
       const glm::dvec3 wo(cases[i].wo), wi(cases[i].wi);
       const glm::dvec3 value = expected.eval(wo, wi);
       for (int k = 0; k < 3; ++k)
@@ -170,7 +182,8 @@ TEST(Layers, AreReciprocal) {
   std::mt19937 generator(2);
   std::vector<LayersCase> cases;
   for (const LayersCase& material : materials()) {
-    if (material.coatNormal.z < 1) continue; // of a normal of its own neither cosine is the surface's
+    // Of a normal of its own neither cosine is the surface's; the other side: bsdf_diffuse_transmission_test.cpp.
+    if (material.coatNormal.z < 1 || material.diffuseTransmission > 0) continue;
     for (int i = 0; i < 500; ++i) {
       cases.push_back(material);
       drawDirections(cases.back(), generator);
@@ -219,6 +232,7 @@ static void expectSamplesFollowTheDensity(size_t stride) {
   constexpr size_t kSamples = 40000;
   std::vector<LayersCase> configurations;
   for (const LayersCase& material : materials()) {
+    if (material.diffuseTransmission > 0) continue; // the bins are those of one side
     for (const double cosine : {0.8, 0.5}) {
       configurations.push_back(material);
       configurations.back().wo = test::directionOf(cosine, 0.6);
@@ -268,50 +282,131 @@ TEST(Layers, SamplesFollowTheDensityWhichIntegratesToOne) { expectSamplesFollowT
 
 TEST(Layers, SamplesFollowTheDensityWhichIntegratesToOneSlow) { expectSamplesFollowTheDensity(1); }
 
+namespace {
+
+LayersCase whiteLambert() {
+  LayersCase c = bare(glm::vec3(1), 0, 1);
+  c.specular = 0;
+  return c;
+}
+
+// Albedos by midpoints that crowd at the horizon, where a sheen of low roughness is a hairline: off by less than 1e-3
+// for a Lambert base, and coats that are smooth, whose mirror is added, or of roughness from 0.5 on.
+std::vector<double> integratedAlbedos(const std::vector<LayersCase>& surfaces) {
+  constexpr int kHeights = 150, kAzimuths = 48;
+  std::vector<LayersCase> cases;
+  for (const LayersCase& surface : surfaces) {
+    const double turn = std::atan2(double(surface.wo.y), double(surface.wo.x));
+    for (int i = 0; i < kHeights * kAzimuths; ++i) {
+      const double t = (i / kAzimuths + 0.5) / kHeights;
+      cases.push_back(surface);
+      cases.back().wi = test::directionOf(t * t * t, turn + pi * (i % kAzimuths + 0.5) / kAzimuths);
+    }
+  }
+  const auto results = probeLayers(cases);
+  std::vector<double> albedos;
+  for (size_t k = 0; k < surfaces.size(); ++k) {
+    const bool mirror = surfaces[k].coatRoughness == 0;
+    const double grazing = std::pow(1 - double(surfaces[k].wo.z), 5);
+    double sum = mirror ? double(surfaces[k].coat) * (0.04 + 0.96 * grazing) : 0;
+    for (int i = 0; i < kHeights * kAzimuths; ++i) {
+      const double t = (i / kAzimuths + 0.5) / kHeights;
+      const double solidAngle = 2 * pi * 3 * t * t / (kHeights * kAzimuths);
+      sum += double(results[k * kHeights * kAzimuths + size_t(i)].fCos.y) * solidAngle;
+    }
+    albedos.push_back(sum);
+  }
+  return albedos;
+}
+
+constexpr float kRoughnesses[] = {0, 0.05f, 0.2f, 0.5f, 1};
+
+} // namespace
+
 // Lossless combinations: a white base that reflects everything keeps doing so under a layer.
 TEST(Layers, OverWhiteReflectEverything) {
   std::vector<LayersCase> surfaces;
   for (const double cosine : {1.0, 0.1}) {
-    for (const float roughness : {0.0f, 0.05f, 0.2f, 0.5f, 1.0f}) {
-      LayersCase lambert = bare(glm::vec3(1), 0, 1);
-      lambert.specular = 0;
-      for (const LayersCase& base : {lambert, bare(glm::vec3(1), 0, 0.5f), bare(glm::vec3(1), 1, 0.0f)}) {
+    for (const float roughness : kRoughnesses) {
+      for (const LayersCase& base : {whiteLambert(), bare(glm::vec3(1), 0, 0.5f), bare(glm::vec3(1), 1, 0.0f)}) {
         surfaces.push_back(coated(base, 1, roughness));
-        surfaces.push_back(velvet(base, glm::vec3(1), roughness));
         surfaces.push_back(coated(base, 0.5f, roughness));
+        for (size_t k = 1; k <= 2; ++k) surfaces[surfaces.size() - k].wo = test::directionOf(cosine, 0.3);
       }
     }
-    for (size_t i = surfaces.size() - 45; i < surfaces.size(); ++i) surfaces[i].wo = test::directionOf(cosine, 0.3);
   }
   const auto albedos = sampledAlbedos(surfaces, 38000);
+  for (size_t i = 0; i < surfaces.size(); ++i) EXPECT_NEAR(albedos[i].y, 1, 1e-2) << describe(surfaces[i]);
+}
+
+// A white sheen of any roughness over white, bare and under a clearcoat, reflects all of it: 1 - 6e-3 to 1 + 2e-3, the
+// errors of the tables.
+TEST(Layers, SheenOverWhiteReflectsEverythingUnderACoatToo) {
+  std::vector<LayersCase> surfaces;
+  for (const double cosine : {1.0, 0.1, 0.05}) {
+    for (const float roughness : {0.0f, 0.05f, 0.085f, 0.2f, 0.5f, 1.0f}) {
+      const LayersCase sheen = velvet(whiteLambert(), glm::vec3(1), roughness);
+      for (const LayersCase& surface : {sheen, velvet(whiteLambert(), glm::vec3(0.4f), roughness), coated(sheen, 1, 0),
+                                        coated(sheen, 0.6f, 0.5f), coated(sheen, 1, 1)}) {
+        surfaces.push_back(surface);
+        surfaces.back().wo = test::directionOf(cosine, 0.3);
+      }
+    }
+  }
+  const auto albedos = integratedAlbedos(surfaces);
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    // Of a sheen that is a hairline at the horizon, the lattice itself is off by 1e-2.
-    const bool hairline = surfaces[i].sheenColor.x > 0 && surfaces[i].sheenRoughness < 0.1f;
-    EXPECT_NEAR(albedos[i].y, 1, hairline ? 2e-2 : 1e-2) << describe(surfaces[i]);
+    EXPECT_LT(albedos[i], 1 + 2e-3) << describe(surfaces[i]);
+    EXPECT_GT(albedos[i], 1 - 6e-3) << describe(surfaces[i]);
   }
 }
 
-// Up to the errors of tables and lattice; 1.14% measured of a hairline sheen at the horizon (docs/bsdf-layers.md).
+// Over rough metals and dielectrics, whose lobes the midpoints resolve, too.
 TEST(Layers, NeverReflectMoreThanArrives) {
   std::vector<LayersCase> surfaces;
   for (const double cosine : {1.0, 0.3, 0.05}) {
-    for (const float roughness : {0.0f, 0.7f}) {
-      for (const float metallic : {0.0f, 1.0f}) {
-        const LayersCase base = bare(glm::vec3(1), metallic, roughness);
-        for (const float layer : {0.0f, 0.25f, 1.0f}) {
-          surfaces.push_back(coated(base, 1, layer));
-          surfaces.push_back(velvet(base, {1, 0.5f, 0}, layer));
-          surfaces.push_back(coated(velvet(base, glm::vec3(1), layer), 1, roughness));
-          for (size_t k = 1; k <= 3; ++k) surfaces[surfaces.size() - k].wo = test::directionOf(cosine, 0.3);
+    for (const LayersCase& base : {bare(glm::vec3(1), 0, 0.7f), bare(glm::vec3(1), 1, 0.7f)}) {
+      for (const float roughness : {0.0f, 0.25f, 1.0f}) {
+        const LayersCase sheen = velvet(base, {0.5f, 1, 0}, roughness);
+        for (const LayersCase& surface : {coated(base, 1, 0), coated(base, 0.5f, 1), sheen, coated(sheen, 1, 0)}) {
+          surfaces.push_back(surface);
+          surfaces.back().wo = test::directionOf(cosine, 0.3);
         }
       }
     }
   }
-  const auto albedos = sampledAlbedos(surfaces, 38000);
+  const auto albedos = integratedAlbedos(surfaces);
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    const bool hairline = surfaces[i].sheenColor.x > 0 && surfaces[i].sheenRoughness < 0.1f;
-    for (int k = 0; k < 3; ++k) EXPECT_LT(albedos[i][k], 1 + (hairline ? 1.5e-2 : 1e-2)) << describe(surfaces[i]);
+    EXPECT_LT(albedos[i], 1 + 1.2e-2) << describe(surfaces[i]);
   }
+}
+
+// A film over white, of any thickness, index and roughness: what its brightest channel reflects, the diffuse lobe does
+// not have. The lattice is off by up to 2e-3.
+TEST(Layers, FilmsOverWhiteNeverReflectMoreThanArrives) {
+  std::vector<LayersCase> surfaces;
+  for (const float thickness : {150.0f, 420.0f, 700.0f, 1000.0f, 1450.0f}) {
+    for (const float ior : {1.3f, 1.8f, 2.5f}) {
+      for (const float roughness : {0.0f, 0.2f, 0.5f}) {
+        for (const double cosine : {1.0, 0.6, 0.3, 0.1}) {
+          LayersCase c = bare(glm::vec3(1), 0, roughness);
+          c.film = 1;
+          c.filmIor = ior;
+          c.filmThickness = thickness;
+          c.wo = test::directionOf(cosine, 0.3);
+          surfaces.push_back(c);
+        }
+      }
+    }
+  }
+  const auto albedos = sampledAlbedos(surfaces, 12000);
+  double worst = 0;
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    const double brightest = std::max({albedos[i].x, albedos[i].y, albedos[i].z});
+    worst = std::max(worst, brightest);
+    EXPECT_LT(brightest, 1 + 4e-3) << describe(surfaces[i]) << " film " << surfaces[i].filmThickness << " of index "
+                                   << surfaces[i].filmIor;
+  }
+  RecordProperty("worst", std::to_string(worst));
 }
 
 // The oracle's own check: the sheen as published, integrated another way than either table.
@@ -319,9 +414,10 @@ TEST(Layers, SheenAlbedoMatchesPublishedLobe) {
   const auto read = [](uint32_t start, uint32_t row, uint32_t column) {
     return double(sheenTable()[start + row * gpu::kLayerMuCount + column]);
   };
-  for (const uint32_t row : {12u, 20u, 31u}) { // roughness from 0.39: no scaling
+  for (const uint32_t row : {19u, 25u, 31u}) { // roughness from 0.42: no scaling
     for (const uint32_t column : {14u, 31u, 48u, 63u}) {
-      const double roughness = row / 31.0, mu = std::pow(column / 63.0, 2);
+      const double least = std::sqrt(double(gpu::kMinSheenAlpha));
+      const double roughness = least + (1 - least) * std::pow(row / 31.0, 2), mu = std::pow(column / 63.0, 2);
       const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
       double sum = 0;
       const int side = 400;

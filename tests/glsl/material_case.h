@@ -26,6 +26,12 @@ struct MaterialResult {
   float dielectricF0;
   float dielectricF90;
   vec3 ns;
+  vec3 coatNormal;
+  vec2 coat;  // amount, roughness
+  vec4 sheen; // color, roughness
+  vec4 film;  // amount, index, thickness
+  float glass;
+  vec4 diffuseTransmission; // color, share
 };
 
 ISOPHOTE_SHARED_END

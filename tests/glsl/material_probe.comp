@@ -29,5 +29,12 @@ MaterialResult probe(const MaterialCase c) {
   result.dielectricF0 = material.bsdf.base.dielectricF0;
   result.dielectricF90 = material.bsdf.base.dielectricF90;
   result.ns = shadingNormal(scene, surface, c.wo);
+  result.coatNormal = clearcoatNormal(scene, surface, c.wo);
+  result.coat = vec2(material.bsdf.coat.amount, material.bsdf.coat.roughness);
+  result.sheen = vec4(material.bsdf.sheen.color, material.bsdf.sheen.roughness);
+  const Iridescence film = material.bsdf.base.film;
+  result.film = vec4(film.amount, film.ior, film.thickness, 0.0);
+  result.glass = material.bsdf.base.glass;
+  result.diffuseTransmission = vec4(material.bsdf.base.behind.color, material.bsdf.base.behind.share);
   return result;
 }

@@ -37,7 +37,8 @@ double linearFromSrgb(int value) { // IEC 61966-2-1
 }
 
 // One triangle with uv (0,0), (1,0), (0,1) in set 0, the same moved by (0.5, 0) in set 1, vertex colors, and the
-// materials 0: no textures, 1: every texture, 2: normal map of half scale read through set 1, 3: unlit and overbright.
+// materials 0: no textures, 1: every texture, 2: normal map of half scale read through set 1, 3: unlit and overbright,
+// 4: every extension with its textures.
 class MaterialScene {
 public:
   MaterialScene() {
@@ -91,7 +92,8 @@ public:
                                     .normalSlot = gpu::kInvalidIndex,
                                     .emissiveSlot = gpu::kInvalidIndex,
                                     .specularSlot = gpu::kInvalidIndex,
-                                    .specularColorSlot = gpu::kInvalidIndex};
+                                    .specularColorSlot = gpu::kInvalidIndex,
+                                    .clearcoatNormalSlot = gpu::kInvalidIndex};
     gpu::MaterialRecord textured = plain;
     textured.baseColorSlot = 0;
     textured.metallicRoughnessSlot = 1;
@@ -103,7 +105,28 @@ public:
     gpu::MaterialRecord unlit = plain;
     unlit.baseColor = {1, 1, 1, 1};
     unlit.flags = gpu::kMaterialUnlit;
-    return {plain, textured, bumped, unlit};
+    gpu::MaterialRecord extended = plain;
+    extended.metallic = 0.25f;
+    extended.clearcoat = 0.8f;
+    extended.clearcoatRoughness = 0.7f;
+    extended.sheenColor = {0.9f, 0.5f, 0.3f};
+    extended.sheenRoughness = 0.6f;
+    extended.iridescence = 0.9f;
+    extended.iridescenceIor = 1.3f;
+    extended.iridescenceThicknessMinimum = 100;
+    extended.iridescenceThicknessMaximum = 400;
+    extended.transmission = 0.5f;
+    extended.diffuseTransmission = 0.4f;
+    extended.diffuseTransmissionColor = {0.2f, 0.5f, 1};
+    extended.glassLoss = gpu::kInvalidIndex;
+    extended.clearcoatSlot = extended.clearcoatRoughnessSlot = extended.sheenRoughnessSlot = 0;
+    extended.sheenColorSlot = extended.diffuseTransmissionColorSlot = 4;
+    extended.iridescenceSlot = extended.iridescenceThicknessSlot = extended.transmissionSlot = 1;
+    extended.diffuseTransmissionSlot = 3;
+    extended.anisotropySlot = gpu::kInvalidIndex;
+    extended.normalSlot = 2;
+    extended.clearcoatNormalSlot = 5;
+    return {plain, textured, bumped, unlit, extended};
   }
 
   [[nodiscard]] std::vector<MaterialResult> evaluate(const std::vector<MaterialCase>& cases,
@@ -199,6 +222,39 @@ TEST(Material, NormalMapTurnsInTheTangentFrame) {
   expectNear(results[1].ns, {bump.x, -bump.y, bump.z}, 1e-4, "mirrored");
   expectNear(results[2].ns, {-bump.y, bump.x, bump.z}, 1e-4, "turned");
   expectNear(results[3].ns, bumpOf(kRightTexel, 0.5), 1e-4, "half scale, second uv set");
+}
+
+// Channels as the extensions give them: clearcoat R, its roughness G; sheen color RGB, its roughness A; iridescence R,
+// its thickness G between minimum and maximum; transmission R; diffuse transmission A, its color RGB.
+TEST(Material, TakesEachFactorOfTheExtensionsFromItsTextureChannel) {
+  const MaterialScene scene;
+  const MaterialResult result = scene.evaluate({caseOf(4, {0.75f, 0})})[0]; // the right texels
+  constexpr double kTolerance = 1e-3;
+  EXPECT_NEAR(double(result.coat.x), 0.8 * 1, kTolerance);
+  EXPECT_NEAR(double(result.coat.y), 0.7 * linearFromSrgb(64), kTolerance);
+  expectNear(result.sheen, {0.9 * linearFromSrgb(128), 0.5, 0.3}, kTolerance, "sheen color");
+  EXPECT_NEAR(double(result.sheen.w), 0.6 * 1, kTolerance);
+  EXPECT_NEAR(double(result.film.x), 0, kTolerance);
+  EXPECT_NEAR(double(result.film.y), 1.3, kTolerance);
+  EXPECT_NEAR(double(result.film.z), 400, 400 * kTolerance);
+  EXPECT_NEAR(double(result.glass), 0, kTolerance);
+  EXPECT_NEAR(double(result.diffuseTransmission.w), 0.4 * 204 / 255.0, kTolerance);
+  expectNear(result.diffuseTransmission, {0.2 * linearFromSrgb(128), 0.5, 1}, kTolerance, "color behind");
+  const MaterialResult left = scene.evaluate({caseOf(4, {0.25f, 0})})[0];
+  EXPECT_NEAR(double(left.film.x), 0.9 * 7 / 255.0, kTolerance);
+  EXPECT_NEAR(double(left.film.z), 100 + 300 * 102 / 255.0, 400 * kTolerance);
+  EXPECT_NEAR(double(left.glass), 0.75 * 0.5 * 7 / 255.0, kTolerance);
+  EXPECT_NEAR(double(left.diffuseTransmission.w), 0.4 * 51 / 255.0, kTolerance);
+}
+
+// The coat's own map, of half scale and read through the second uv set, on a base that has another.
+TEST(Material, TheClearcoatHasItsOwnNormalMap) {
+  const MaterialScene scene;
+  const MaterialResult both = scene.evaluate({caseOf(4, {0.25f, 0})})[0];
+  expectNear(both.coatNormal, bumpOf(kRightTexel, 0.5), 1e-4, "coat");
+  expectNear(both.ns, bumpOf({128, 128, 255}, 1), 1e-4, "base");
+  const MaterialResult without = scene.evaluate({caseOf(2, {0.25f, 0})})[0];
+  EXPECT_EQ(without.coatNormal, glm::vec3(0, 0, 1)) << "the base's map is not the coat's";
 }
 
 TEST(Material, NormalMapOfABackSideIsTheNegativeOfTheFronts) {

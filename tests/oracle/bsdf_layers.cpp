@@ -190,6 +190,33 @@ private:
   std::vector<double> narrow_;
 };
 
+class CoatedSheen {
+public:
+  CoatedSheen(const LayerCoupling& coat, const LayerCoupling& sheen, double sheenRoughness, double alphaBelow) {
+    for (int i = 0; i < kNodes; ++i) {
+      const double mu = std::max(nodeMu(i), 1e-6);
+      const double mean = sheenIntegral(
+          mu, sheenRoughness, [&](double z) { return sheen.scale(z) * std::max(coat.albedo(z), coat.albedo(mu)); });
+      taken_.push_back(sheen.scale(mu) * mean);
+    }
+    mean_ = cosineMean([this](double mu) { return taken(mu); });
+    for (int k = 0; k < 2; ++k) {
+      const auto below = [&](double mu) { return directionalAlbedo(mu, alphaBelow)[k]; };
+      covariance_[k] = cosineMean([&](double mu) { return below(mu) * taken(mu); }) - cosineMean(below) * mean_;
+    }
+  }
+
+  /// Albedo of the sheen's lobe times the larger of the coat's albedos at both directions.
+  [[nodiscard]] double taken(double mu) const { return interpolate(taken_, mu); }
+  [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] const glm::dvec2& covariance() const { return covariance_; }
+
+private:
+  std::vector<double> taken_;
+  double mean_ = 0;
+  glm::dvec2 covariance_{0};
+};
+
 namespace {
 
 std::shared_ptr<const LayerCoupling> coupling(LayerCoupling::Kind kind, double roughness, double alphaBelow) {
@@ -215,6 +242,9 @@ LayeredSurface::LayeredSurface(const MetallicRoughness& base, const ClearcoatLay
     : base_(base), coat_(coat), sheen_(sheen) {
   if (coat.amount > 0) coatCoupling_ = coupling(LayerCoupling::Kind::Coat, coat.roughness, baseAlpha(base));
   if (largest(sheen.color) > 0) sheenCoupling_ = coupling(LayerCoupling::Kind::Sheen, sheen.roughness, baseAlpha(base));
+  if (coatCoupling_ && sheenCoupling_)
+    coatedSheen_ =
+        std::make_shared<const CoatedSheen>(*coatCoupling_, *sheenCoupling_, sheen.roughness, baseAlpha(base));
 }
 
 LayeredSurface::Probabilities LayeredSurface::probabilities(const glm::dvec3& wo) const {
@@ -235,6 +265,26 @@ LayeredSurface::Probabilities LayeredSurface::probabilities(const glm::dvec3& wo
   return {coatShare > 0 ? coatShare / (coatShare + below) : 0, sheenShare > 0 ? sheenShare / below : 0};
 }
 
+// Both layers lose c E_coat + a (E_sheen - c X), X what the coat takes of the sheen's light; the diffuse lobe gives
+// back the rest, U, by U(wo) U(wi) over the mean of U times what the base's own coat passes.
+double LayeredSurface::broadThroughBoth(const glm::dvec3& wo, const glm::dvec3& wi) const {
+  const double amount = largest(sheen_.color);
+  const auto left = [&](const glm::dvec3& w) {
+    const double mu = std::abs(w.z);
+    const double coat = coat_.amount * coatCoupling_->albedo(std::abs(glm::dot(coat_.normal, w)));
+    return std::max(1 - coat - amount * (sheenCoupling_->albedo(mu) - coat_.amount * coatedSheen_->taken(mu)), 0.0);
+  };
+  const auto lost = [&](auto quantity) {
+    return coat_.amount * quantity(*coatCoupling_) +
+           amount * (quantity(*sheenCoupling_) - coat_.amount * quantity(*coatedSheen_));
+  };
+  const glm::dvec2 covariance = lost([](const auto& layer) { return layer.covariance(); });
+  const double mean =
+      1 - lost([](const auto& layer) { return layer.mean(); }) +
+      (base_.dielectricF0 * covariance.x + base_.dielectricF90 * covariance.y) / meanCoatTransmission(base_);
+  return left(wo) * left(wi) / mean;
+}
+
 LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm::dvec3& wi) const {
   const double passedBelow = meanCoatTransmission(base_);
   const auto through = [&](const LayerCoupling& layer, double amount, double muO, double muI) {
@@ -247,22 +297,21 @@ LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm:
   if (coatCoupling_) {
     const double muO = std::abs(glm::dot(coat_.normal, wo)), muI = std::abs(glm::dot(coat_.normal, wi));
     result = through(*coatCoupling_, coat_.amount, muO, muI);
-    if (sheenCoupling_)
-      result.broad = mixed(coat_.amount, 1 - std::max(coatCoupling_->albedo(muO), coatCoupling_->albedo(muI)));
   }
   if (sheenCoupling_) {
-    const Passage sheen = through(*sheenCoupling_, largest(sheen_.color), wo.z, wi.z);
+    const Passage sheen = through(*sheenCoupling_, largest(sheen_.color), wo.z, std::abs(wi.z));
     result.narrow *= sheen.narrow;
-    result.broad *= sheen.broad;
+    result.broad = coatCoupling_ ? broadThroughBoth(wo, wi) : sheen.broad;
   }
   return result;
 }
 
 glm::dvec3 LayeredSurface::eval(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  if (wo.z <= 0 || wi.z <= 0) return glm::dvec3(0);
+  if (wo.z <= 0 || wi.z == 0) return glm::dvec3(0);
   const Passage through = passage(wo, wi);
   const glm::dvec3 diffuse = evalDiffuse(base_, wo, wi);
   glm::dvec3 result = diffuse * through.broad + (evalBsdf(base_, wo, wi) - diffuse) * through.narrow;
+  if (wi.z < 0) return result; // a thin wall has its layers on both sides
   const double muO = glm::dot(coat_.normal, wo), muI = glm::dot(coat_.normal, wi);
   if (sheenCoupling_) {
     double under = 1;
@@ -284,8 +333,9 @@ glm::dvec3 LayeredSurface::eval(const glm::dvec3& wo, const glm::dvec3& wi) cons
 }
 
 double LayeredSurface::pdf(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  if (wo.z <= 0 || wi.z <= 0) return 0;
+  if (wo.z <= 0 || wi.z == 0) return 0;
   const Probabilities choice = probabilities(wo);
+  if (wi.z < 0) return (1 - choice.coat) * (1 - choice.sheen) * pdfBsdf(base_, wo, wi);
   double result = (1 - choice.coat) * (choice.sheen / (2 * pi) + (1 - choice.sheen) * pdfBsdf(base_, wo, wi));
   const double muO = glm::dot(coat_.normal, wo), muI = glm::dot(coat_.normal, wi);
   if (choice.coat > 0 && coatAlpha(coat_.roughness) > 0 && muO > 0 && muI > 0) {

@@ -27,12 +27,15 @@ struct SheenLayer {
 /// What a layer reflects and how it couples with a base below.
 class LayerCoupling;
 
+/// What a clearcoat takes of the light of a sheen below it.
+class CoatedSheen;
+
 /// A base with layers. Costly to build (tens of milliseconds a new pair of roughnesses); copies share what was built.
 class LayeredSurface {
 public:
   LayeredSurface(const MetallicRoughness& base, const ClearcoatLayer& coat, const SheenLayer& sheen);
 
-  /// f |cos wi| of the continuous lobes.
+  /// f |cos wi| of the continuous lobes; on the other side, wi.z < 0, those of thin walls.
   [[nodiscard]] glm::dvec3 eval(const glm::dvec3& wo, const glm::dvec3& wi) const;
   [[nodiscard]] double pdf(const glm::dvec3& wo, const glm::dvec3& wi) const;
   [[nodiscard]] BsdfSample sample(const glm::dvec3& wo, double uLobe, const glm::dvec2& u) const;
@@ -49,12 +52,14 @@ private:
 
   [[nodiscard]] Probabilities probabilities(const glm::dvec3& wo) const;
   [[nodiscard]] Passage passage(const glm::dvec3& wo, const glm::dvec3& wi) const;
+  [[nodiscard]] double broadThroughBoth(const glm::dvec3& wo, const glm::dvec3& wi) const;
 
   MetallicRoughness base_;
   ClearcoatLayer coat_;
   SheenLayer sheen_;
   std::shared_ptr<const LayerCoupling> coatCoupling_;  ///< null: no coat
   std::shared_ptr<const LayerCoupling> sheenCoupling_; ///< null: no sheen
+  std::shared_ptr<const CoatedSheen> coatedSheen_;     ///< null: not both
 };
 
 } // namespace isophote::oracle

@@ -40,6 +40,15 @@ double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
   return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost(m, albedo);
 }
 
+// What the coat passes in one direction; of a film no more than its brightest channel leaves.
+double coatTransmission(const MetallicRoughness& m, double mu) {
+  const double passed = 1 - coatAlbedo(m, directionalAlbedo(mu, modelAlpha(m)));
+  if (m.film.amount == 0) return passed;
+  const glm::dvec3 reflected = glm::mix(fresnelSchlick(m.glassF0, glm::dvec3(m.glassF90), mu),
+                                        filmReflectance(m.film, mu, m.glassF0), m.film.amount);
+  return std::min(passed, 1 - std::max({reflected.x, reflected.y, reflected.z}));
+}
+
 glm::dvec3 metalReflectance(const MetallicRoughness& m, double cosine) {
   if (m.conductorN.x == 0) return fresnelSchlick(m.baseColor, glm::dvec3(1), cosine);
   return {fresnelConductor(cosine, m.conductorN.x, m.conductorK.x),
@@ -62,8 +71,8 @@ double diffuselySeenThrough(const MetallicRoughness& m) {
 // Both cosines to the normals of the sides where they are.
 glm::dvec3 diffuse(const MetallicRoughness& m, double muO, double muI, bool behind) {
   const double alpha = modelAlpha(m);
-  const double transmittedO = 1 - coatAlbedo(m, directionalAlbedo(muO, alpha));
-  const double transmittedI = 1 - coatAlbedo(m, directionalAlbedo(muI, alpha));
+  const double transmittedO = coatTransmission(m, muO);
+  const double transmittedI = coatTransmission(m, muI);
   const double mean = std::max(1 - coatAlbedo(m, meanAlbedo(alpha)), double(gpu::kMinCoatTransmission));
   const glm::dvec3 color =
       behind ? m.diffuseTransmissionColor * diffuselySeenThrough(m) : m.baseColor * (1 - diffuselyCrossing(m));
@@ -119,16 +128,16 @@ struct Choice {
 Choice lobeChoice(const MetallicRoughness& m, double muO) {
   const glm::dvec2 albedo = directionalAlbedo(muO, modelAlpha(m));
   const GlassMultiple glass = glassMultiple(m, muO);
-  const double below = luminance(m.baseColor) * (1 - coatAlbedo(m, albedo));
+  const double passed = coatTransmission(m, muO);
+  const double below = luminance(m.baseColor) * passed;
   const double facets = luminance(m.f0 * albedo.x + m.f90 * albedo.y) +
                         glassShare(m) * (luminance(m.glassF0 * albedo.x + m.dielectricF90 * albedo.y) + below);
   const double diffuseShare = (1 - m.metallic) * (1 - m.transmission);
   const double above = diffuseShare * (1 - diffuselyCrossing(m)) * below +
                        luminance(opaqueMultiple(m)) * lost(m, albedo) +
                        glassShare(m) * (1 - glass.transmitted) * glass.lossInFront;
-  const double behind =
-      glassShare(m) * luminance(m.baseColor) * glass.transmitted * glass.lossInFront +
-      diffuseShare * diffuselyCrossing(m) * luminance(m.diffuseTransmissionColor) * (1 - coatAlbedo(m, albedo));
+  const double behind = glassShare(m) * luminance(m.baseColor) * glass.transmitted * glass.lossInFront +
+                        diffuseShare * diffuselyCrossing(m) * luminance(m.diffuseTransmissionColor) * passed;
   const double sum = facets + above + behind;
   return sum > 0 ? Choice{facets / sum, behind / sum} : Choice{};
 }

@@ -6,23 +6,34 @@ namespace isophote::oracle {
 
 namespace {
 
-glm::dmat3 frameAround(glm::dvec3 normal) {
+// x is the direction of anisotropy, where there is one.
+glm::dmat3 frameOf(const SurfacePoint& point) {
+  const glm::dvec3 normal = point.ns;
   const glm::dvec3 axis = std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 tangent = glm::normalize(glm::cross(axis, normal));
+  const glm::dvec3 tangent = point.along != glm::dvec3(0) ? point.along : glm::normalize(glm::cross(axis, normal));
   return {tangent, glm::cross(normal, tangent), normal};
 }
 
 } // namespace
 
 Scattering::Scattering(const SurfacePoint& point, glm::dvec3 wo)
-    : ng_(point.ng), frame_(frameAround(point.ns)), woLocal_(glm::transpose(frame_) * wo), lit_(sidesAgree(wo)),
-      lambert_(point.material.metallic == 0 && point.material.specular == 0 && point.material.transmission == 0),
+    : ng_(point.ng), frame_(frameOf(point)), woLocal_(glm::transpose(frame_) * wo), lit_(sidesAgree(wo)),
+      lambert_(point.material.metallic == 0 && point.material.specular == 0 && point.material.transmission == 0 &&
+               point.material.diffuseTransmission == 0 && point.material.film.amount == 0),
       model_(metallicRoughness(point.material.baseColor, point.material.metallic, point.material.roughness,
                                point.material.ior, point.material.specular, point.material.specularColor)) {
+  if (point.material.anisotropy > 0) model_ = withAnisotropy(model_, point.material.anisotropy);
   if (point.material.transmission > 0)
     model_ = withTransmission(model_, point.material.transmission, point.material.ior, point.frontFace,
                               point.material.thinWalled);
   const SurfaceMaterial& material = point.material;
+  if (material.conductorN.x > 0) model_ = withConductor(model_, material.conductorN, material.conductorK);
+  if (material.film.amount > 0) model_ = withFilm(model_, material.film);
+  if (material.diffuseTransmission > 0) {
+    const bool refracts = material.transmission > 0 && !material.thinWalled;
+    model_ = withDiffuseTransmission(model_, material.diffuseTransmission, material.diffuseTransmissionColor,
+                                     refracts ? model_.innerIor / model_.outerIor : 1);
+  }
   if (material.clearcoat == 0 && material.sheenColor == glm::dvec3(0)) return;
   layered_.emplace(
       model_,

@@ -74,9 +74,28 @@ SurfaceMaterial evaluateMaterial(const Attributes& at) {
   result.sheenRoughness = source.sheen.roughness;
   if (source.sheen.roughnessTexture.present())
     result.sheenRoughness *= at.texture(source.sheen.roughnessTexture, Encoding::Linear).w;
+  result.anisotropy = source.anisotropy.strength;
+  if (source.anisotropy.texture.present())
+    result.anisotropy *= at.texture(source.anisotropy.texture, Encoding::Linear).z;
+  const Iridescence& film = source.iridescence;
+  result.film = {double(film.factor), double(film.ior), double(film.thicknessMaximum)};
+  if (film.texture.present()) result.film.amount *= at.texture(film.texture, Encoding::Linear).x;
+  if (film.thicknessTexture.present())
+    result.film.thickness = std::lerp(double(film.thicknessMinimum), double(film.thicknessMaximum),
+                                      at.texture(film.thicknessTexture, Encoding::Linear).y);
+  if (source.conductor.given) {
+    result.conductorN = glm::dvec3(source.conductor.n);
+    result.conductorK = glm::dvec3(source.conductor.k);
+  }
   result.transmission = source.ior >= 1 ? source.transmission.factor : 0; // index 0 is infinite: nothing gets in
   if (source.transmission.texture.present())
     result.transmission *= at.texture(source.transmission.texture, Encoding::Linear).x;
+  const DiffuseTransmission& diffuse = source.diffuseTransmission;
+  result.diffuseTransmission = diffuse.factor;
+  if (diffuse.texture.present()) result.diffuseTransmission *= at.texture(diffuse.texture, Encoding::Linear).w;
+  result.diffuseTransmissionColor = glm::dvec3(diffuse.color);
+  if (diffuse.colorTexture.present())
+    result.diffuseTransmissionColor *= glm::dvec3(at.texture(diffuse.colorTexture, Encoding::Srgb));
   result.thinWalled = source.volume.thickness == 0;
   result.dispersion = source.dispersion;
   return result;
@@ -99,6 +118,24 @@ glm::dvec3 frontShadingNormal(const Attributes& at, const Triangle& triangle, co
   const glm::dvec3 texel = 2.0 * glm::dvec3(at.texture(normalTexture, Encoding::Linear)) - 1.0;
   const double scale = normalTexture.scale;
   return glm::normalize(scale * texel.x * tangent + scale * texel.y * bitangent + texel.z * normal);
+}
+
+/// Unit direction of anisotropy about `normal`, the shading normal on the front side. Source: Khronos,
+/// KHR_materials_anisotropy: the texture's direction 2t - 1 in the tangent plane, turned counter-clockwise.
+glm::dvec3 anisotropyDirection(const Attributes& at, const Triangle& triangle, glm::dvec3 normal) {
+  const Anisotropy& source = at.material.anisotropy;
+  if (source.strength == 0 || at.primitive.tangents.empty()) return glm::dvec3(0);
+  const glm::dmat3 worldFromObject(at.scene.instances[triangle.instance].worldFromObject);
+  const glm::dvec4 interpolated = at.interpolate<4>(at.primitive.tangents);
+  const glm::dvec3 along = worldFromObject * glm::dvec3(interpolated);
+  const glm::dvec3 tangent = glm::normalize(along - normal * glm::dot(normal, along));
+  const double handedness = (interpolated.w < 0 ? -1.0 : 1.0) * (glm::determinant(worldFromObject) < 0 ? -1.0 : 1.0);
+  const glm::dvec3 bitangent = glm::cross(normal, tangent) * handedness;
+  glm::dvec2 direction(1, 0);
+  if (source.texture.present()) direction = 2.0 * glm::dvec2(at.texture(source.texture, Encoding::Linear)) - 1.0;
+  const double cosine = std::cos(double(source.rotation)), sine = std::sin(double(source.rotation));
+  return glm::normalize((cosine * direction.x - sine * direction.y) * tangent +
+                        (sine * direction.x + cosine * direction.y) * bitangent);
 }
 
 /// A rule of the renderer's surface model: a shading normal that leans away from the viewer is turned towards wo, in
@@ -129,6 +166,7 @@ SurfacePoint evaluateSurface(const Scene& scene, const Triangle& triangle, const
   point.ns = turnedToViewer(side * frontShadingNormal(at, triangle, at.material.normalTexture), point.ng, wo);
   point.coatNormal =
       turnedToViewer(side * frontShadingNormal(at, triangle, at.material.clearcoat.normalTexture), point.ng, wo);
+  point.along = anisotropyDirection(at, triangle, side * point.ns);
   point.emission = evaluateEmission(scene, triangle, hit, wo);
   point.material = evaluateMaterial(at);
   return point;

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "isophote/scene.hpp"
+#include "oracle/bsdf_fresnel.hpp"
 #include "oracle/ray.hpp"
 #include "oracle/triangle_soup.hpp"
 
@@ -21,7 +22,13 @@ struct SurfaceMaterial {
   double clearcoatRoughness = 0;
   glm::dvec3 sheenColor{0};
   double sheenRoughness = 0;
+  double anisotropy = 0; ///< strength
+  ThinFilm film;
+  glm::dvec3 conductorN{0}; ///< complex index of the metal; 0: it reflects its base color
+  glm::dvec3 conductorK{0};
   double transmission = 0;
+  double diffuseTransmission = 0;
+  glm::dvec3 diffuseTransmissionColor{1};
   bool thinWalled = true;
   double dispersion = 0; ///< 20 / Abbe number
 };
@@ -31,6 +38,7 @@ struct SurfacePoint {
   glm::dvec3 ng{0};         ///< unit geometric normal, on wo's side
   glm::dvec3 ns{0};         ///< unit shading normal, turned over together with ng
   glm::dvec3 coatNormal{0}; ///< the clearcoat's own shading normal
+  glm::dvec3 along{0};      ///< direction of anisotropy, orthogonal to ns; 0: none
   glm::dvec3 emission{0};   ///< radiance towards wo
   bool frontFace = true;
   bool unlit = false; ///< KHR_materials_unlit: `emission` is the base color and nothing scatters

@@ -16,6 +16,10 @@ Scene ballsOf(const std::vector<Material>& materials) {
   Scene scene = lambertFloor(glm::vec3(0.5f), 4);
   for (size_t i = 0; i < materials.size(); ++i) {
     Primitive ball = sphere(0.5, 16, true, false, addMaterial(scene, materials[i]));
+    for (const glm::vec3 normal : ball.normals) { // along the parallels
+      const glm::vec3 east = glm::cross(glm::vec3(0, 1, 0), normal);
+      ball.tangents.emplace_back(glm::length(east) > 1e-3f ? glm::normalize(east) : glm::vec3(1, 0, 0), 1);
+    }
     addPrimitive(scene, ball,
                  glm::translate(glm::dmat4(1), {1.1 * (double(i) - 0.5 * double(materials.size() - 1)), 0.5, 0}));
   }
@@ -45,6 +49,67 @@ TEST(RenderLayers, ClearcoatAndSheenMatchTheReference) {
   const auto reference = oracle::renderReference(scene, ballsCamera(), 36, 20, 512, {.seed = 4});
   const Image image = renderImage(scene, ballsCamera(), 36, 20, 512);
   EXPECT_TRUE(sameImage(measured(image), measured(reference), {.absoluteTolerance = 4e-3, .powerFloor = 0.015}));
+}
+
+// Each compared alone: `scene` at 512 samples a pixel on both sides.
+void expectReference(const Scene& scene, double powerFloor) {
+  const auto reference = oracle::renderReference(scene, ballsCamera(), 36, 20, 512, {.seed = 4});
+  const Image image = renderImage(scene, ballsCamera(), 36, 20, 512);
+  EXPECT_TRUE(sameImage(measured(image), measured(reference), {.absoluteTolerance = 4e-3, .powerFloor = powerFloor}));
+}
+
+// Brushed metal and plastic, the second across, the third by a texture of direction and strength.
+TEST(RenderLayers, AnisotropyMatchesTheReference) {
+  Material along = metal({0.8f, 0.7f, 0.6f}, 0.4f);
+  along.anisotropy.strength = 0.8f;
+  Material across = dielectric({0.2f, 0.4f, 0.3f}, 0.4f);
+  across.anisotropy.strength = 0.7f;
+  across.anisotropy.rotation = 1.2f;
+  Material brushed = along;
+  Scene scene = ballsOf({along, across, brushed});
+  scene.materials[3].anisotropy.texture = useTexture(
+      addTexture(scene, 2, 2, {{255, 128, 255, 255}, {128, 255, 180, 255}, {218, 218, 100, 255}, {37, 218, 255, 255}},
+                 Filter::Nearest));
+  expectReference(scene, 0.02);
+}
+
+// Soap, an annealed metal, and a film whose factor and thickness a texture gives.
+TEST(RenderLayers, IridescenceMatchesTheReference) {
+  Material soap = dielectric({0.3f, 0.3f, 0.3f}, 0.3f);
+  soap.iridescence = {.factor = 1, .ior = 1.33f, .thicknessMaximum = 450};
+  Material annealed = metal({0.6f, 0.5f, 0.4f}, 0.3f);
+  annealed.iridescence = {.factor = 0.8f, .ior = 1.8f, .thicknessMaximum = 250};
+  Material pattern = soap;
+  Scene scene = ballsOf({soap, annealed, pattern});
+  const uint32_t texture = addTexture(scene, 2, 1, {{255, 40, 0, 255}, {120, 220, 0, 255}}, Filter::Nearest);
+  scene.materials[3].iridescence.texture = scene.materials[3].iridescence.thicknessTexture = useTexture(texture);
+  expectReference(scene, 0.02);
+}
+
+// Gold, aluminium, and half a metal over plastic, by their indices at red, green and blue.
+TEST(RenderLayers, ConductorsMatchTheReference) {
+  Material gold = metal(glm::vec3(1), 0.3f);
+  gold.conductor = {true, {0.143f, 0.374f, 1.442f}, {3.983f, 2.387f, 1.603f}};
+  Material aluminium = metal(glm::vec3(1), 0.5f);
+  aluminium.conductor = {true, {1.346f, 0.965f, 0.617f}, {7.475f, 6.400f, 5.303f}};
+  Material flakes = gold;
+  flakes.metallic = 0.5f;
+  flakes.baseColor = {0.2f, 0.3f, 0.6f, 1};
+  expectReference(ballsOf({gold, aluminium, flakes}), 0.02);
+}
+
+// A coat with a normal map of its own, on a base that has none.
+TEST(RenderLayers, TheClearcoatsNormalMapMatchesTheReference) {
+  Material coated = dielectric({0.5f, 0.1f, 0.1f}, 0.7f);
+  coated.clearcoat.factor = 1;
+  coated.clearcoat.roughness = 0.25f;
+  Scene scene = ballsOf({coated, coated});
+  TextureRef map = useTexture(
+      addTexture(scene, 2, 2, {{170, 128, 245, 255}, {128, 170, 245, 255}, {128, 86, 245, 255}, {86, 128, 245, 255}},
+                 Filter::Nearest));
+  map.scale = 1;
+  scene.materials[2].clearcoat.normalTexture = map;
+  expectReference(scene, 0.02);
 }
 
 TEST(RenderLayers, SpecialisedKernelsRenderTheSame) {

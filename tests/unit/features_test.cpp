@@ -84,6 +84,7 @@ TEST(Features, EachThingInTheSceneAddsItsFeatureAlone) {
        [](Scene& s) {
          s.materials[0].sheen.color = {0, 0.1f, 0};
        }},
+      {"diffuse-transmission", [](Scene& s) { s.materials[0].diffuseTransmission.factor = 0.1f; }},
       {"unlit", [](Scene& s) { s.materials[0].unlit = true; }},
   };
   // Glass is made of facets.

@@ -60,7 +60,7 @@ std::array<Row, 2> ggxRows(const FacetModel& model, double roughness) {
 }
 
 double baseRoughness(uint32_t b) { return b / double(gpu::kLayerBaseCount - 1); }
-double layerRoughness(uint32_t r) { return r / double(gpu::kLayerRoughnessCount - 1); }
+double layerRow(uint32_t r) { return r / double(gpu::kLayerRoughnessCount - 1); }
 
 // ---- A white microfacet base: where it sends light, by cosines alone. ----
 
@@ -142,12 +142,13 @@ struct LayerAlbedo {
   Row scale;  ///< of the lobe, at wo and at wi
 };
 
-std::vector<float> computeTable(const FacetModel& model, const std::function<LayerAlbedo(double)>& layerAlbedo) {
+/// @param layerAlbedo of a row
+std::vector<float> computeTable(const FacetModel& model, const std::function<LayerAlbedo(uint32_t)>& layerAlbedo) {
   std::vector<float> table(gpu::kLayerTableSize);
   std::array<Transport, gpu::kLayerBaseCount> transports;
   for (uint32_t b = 1; b < gpu::kLayerBaseCount; ++b) transports[b] = whiteTransport(model, baseRoughness(b));
   for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) {
-    const LayerAlbedo layer = layerAlbedo(layerRoughness(r));
+    const LayerAlbedo layer = layerAlbedo(r);
     std::copy(layer.albedo.begin(), layer.albedo.end(), &table[gpu::kLayerAlbedo + r * kMuCount]);
     std::copy(layer.scale.begin(), layer.scale.end(), &table[gpu::kLayerScale + r * kMuCount]);
     const double layerMean = mean(layer.albedo);
@@ -218,9 +219,20 @@ Row sheenShares(double mu, double alpha, const std::vector<double>& lambdas) {
   return shares;
 }
 
+/// The roughness of a row: sheenRow of shaders/bsdf/sheen.glsl, turned round.
+double sheenRoughness(uint32_t r) {
+  const double least = std::sqrt(double(gpu::kMinSheenAlpha));
+  return least + (1 - least) * layerRow(r) * layerRow(r);
+}
+
+struct SheenLobe {
+  LayerAlbedo layer;
+  std::array<Row, kMuCount> shares; ///< of light of one node that go to another
+};
+
 /// Near grazing the published lobe reflects more than arrives where roughness is below 0.3. It is divided by its own
 /// albedo there, at both directions, so that it stays reciprocal and never exceeds 1.
-LayerAlbedo sheenAlbedo(double roughness) {
+SheenLobe sheenLobe(double roughness) {
   constexpr int kHeightCount = 48;
   const double alpha = std::max(roughness * roughness, double(gpu::kMinSheenAlpha));
   std::vector<double> lambdas;
@@ -228,8 +240,8 @@ LayerAlbedo sheenAlbedo(double roughness) {
     const double t = (i + 0.5) / kHeightCount;
     lambdas.push_back(sheenLambda(t * t * t, alpha));
   }
-  std::array<Row, kMuCount> shares;
-  LayerAlbedo layer;
+  SheenLobe lobe;
+  auto& [layer, shares] = lobe;
   for (uint32_t c = 0; c < kMuCount; ++c) {
     shares[c] = sheenShares(nodeRoot(c) * nodeRoot(c), alpha, lambdas);
     double sum = 0;
@@ -238,23 +250,57 @@ LayerAlbedo sheenAlbedo(double roughness) {
   }
   for (uint32_t c = 0; c < kMuCount; ++c) {
     double sum = 0;
-    for (uint32_t k = 0; k < kMuCount; ++k) sum += shares[c][k] * layer.scale[k];
-    layer.albedo[c] = std::min(layer.scale[c] * sum, 1.0);
+    for (uint32_t k = 0; k < kMuCount; ++k) sum += shares[c][k] *= layer.scale[c] * layer.scale[k];
+    layer.albedo[c] = std::min(sum, 1.0);
   }
-  return layer;
+  return lobe;
+}
+
+/// What a clearcoat above takes from the sheen's light: the larger of its albedos at both directions.
+void addCoatedSheen(const FacetModel& model, const std::vector<SheenLobe>& lobes, std::vector<float>& table) {
+  table.resize(gpu::kSheenTableSize);
+  std::array<std::array<Row, 2>, gpu::kLayerBaseCount> ggx;
+  for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) ggx[b] = ggxRows(model, baseRoughness(b));
+  for (uint32_t q = 0; q < gpu::kLayerBaseCount; ++q) {
+    const Row coat = clearcoatAlbedo(model, baseRoughness(q)).albedo;
+    for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) {
+      Row taken{};
+      for (uint32_t c = 0; c < kMuCount; ++c) {
+        for (uint32_t k = 0; k < kMuCount; ++k) taken[c] += lobes[r].shares[c][k] * std::max(coat[c], coat[k]);
+      }
+      const uint32_t pair = r * gpu::kLayerBaseCount + q;
+      std::copy(taken.begin(), taken.end(), &table[gpu::kCoatedSheen + pair * kMuCount]);
+      const double takenMean = mean(taken);
+      table[gpu::kCoatedSheenMean + pair] = static_cast<float>(takenMean);
+      for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) {
+        for (uint32_t i = 0; i < 2; ++i) {
+          table[gpu::kCoatedSheenCovariance + 2 * (pair * gpu::kLayerBaseCount + b) + i] =
+              static_cast<float>(meanOfProduct(ggx[b][i], taken) - mean(ggx[b][i]) * takenMean);
+        }
+      }
+    }
+  }
+}
+
+std::vector<float> computeSheenTable(const FacetModel& model) {
+  std::vector<SheenLobe> lobes;
+  for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) lobes.push_back(sheenLobe(sheenRoughness(r)));
+  std::vector<float> table = computeTable(model, [&lobes](uint32_t r) { return lobes[r].layer; });
+  addCoatedSheen(model, lobes, table);
+  return table;
 }
 
 } // namespace
 
 const std::vector<float>& clearcoatTable(const FacetModel& model) {
   static Memo<FacetModel, std::vector<float>> tables;
-  const auto albedo = [&](double roughness) { return clearcoatAlbedo(model, roughness); };
+  const auto albedo = [&](uint32_t r) { return clearcoatAlbedo(model, layerRow(r)); };
   return tables.get(model, [&] { return computeTable(model, albedo); });
 }
 
 const std::vector<float>& sheenTable(const FacetModel& model) {
   static Memo<FacetModel, std::vector<float>> tables;
-  return tables.get(model, [&] { return computeTable(model, sheenAlbedo); });
+  return tables.get(model, [&] { return computeSheenTable(model); });
 }
 
 } // namespace isophote
