@@ -3,6 +3,7 @@
 
 #include "glsl/bsdf_material_cases.hpp"
 #include "render/setting_ids.hpp"
+#include "support/statistics.hpp"
 
 using namespace isophote;
 using gpu::BsdfCase;
@@ -60,13 +61,12 @@ const Lossless kMaterials[] = {
      [](float roughness) { return halfTranslucentGlass(roughness, Side::Inside); }},
 };
 
-// Mean of weight times eta^2, the directional albedo, by a rank-3 lattice (Roberts 2018). Off by less than 2e-3 against
-// ten times the points.
-std::vector<double> albedos(const std::vector<BsdfCase>& materials, std::span<const gpu::SpecConstant> constants = {},
-                            int count = 40000) {
+// Weights times eta^2, whose mean is the directional albedo, at points of a rank-3 lattice (Roberts 2018).
+std::vector<test::Moments> sampledWeights(const std::vector<BsdfCase>& materials,
+                                          std::span<const gpu::SpecConstant> constants, int count) {
   const glm::dvec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-  std::vector<double> result(materials.size(), 0);
-  const size_t atOnce = 50;
+  std::vector<test::Moments> result(materials.size());
+  const size_t atOnce = std::max<size_t>(2'000'000 / size_t(count), 1);
   for (size_t first = 0; first < materials.size(); first += atOnce) {
     std::vector<BsdfCase> cases;
     for (size_t m = first; m < std::min(first + atOnce, materials.size()); ++m) {
@@ -79,11 +79,18 @@ std::vector<double> albedos(const std::vector<BsdfCase>& materials, std::span<co
     }
     const auto results = test::probeBsdf(std::move(cases), constants);
     for (size_t i = 0; i < results.size(); ++i) {
-      if ((results[i].flags & gpu::kBsdfValid) == 0) continue;
       const double eta = results[i].eta;
-      result[first + i / size_t(count)] += double(results[i].weight.y) * eta * eta / count;
+      const bool isValid = (results[i].flags & gpu::kBsdfValid) != 0;
+      result[first + i / size_t(count)].add(isValid ? double(results[i].weight.y) * eta * eta : 0);
     }
   }
+  return result;
+}
+
+// Directional albedos, off by less than 2e-3 against ten times the points.
+std::vector<double> albedos(const std::vector<BsdfCase>& materials, std::span<const gpu::SpecConstant> constants = {}) {
+  std::vector<double> result;
+  for (const test::Moments& weights : sampledWeights(materials, constants, 40000)) result.push_back(weights.mean());
   return result;
 }
 
@@ -135,7 +142,9 @@ const FacetChoice kChoices[] = {
      .fresnel = Fresnel::Exact},
 };
 
-// 8000 points of the lattice; the bound has room for their error, below 4e-3.
+// What the thin tails of Beckmann's and Blinn-Phong's facets lose leaves near the horizon, where a cosine seldom goes:
+// such weights vary much, and get 40 times the points. The lattice's error is below the standard error of random
+// points.
 void expectLossless(const FacetChoice& choice, std::initializer_list<float> roughnesses,
                     std::initializer_list<double> cosines) {
   std::vector<BsdfCase> cases;
@@ -150,8 +159,24 @@ void expectLossless(const FacetChoice& choice, std::initializer_list<float> roug
       }
     }
   }
-  const auto albedo = albedos(cases, choice.constants(), 8000);
-  for (size_t i = 0; i < cases.size(); ++i) EXPECT_NEAR(albedo[i], 1, 0.01) << labels[i];
+  std::vector<test::Moments> albedo = sampledWeights(cases, choice.constants(), 8000);
+  std::vector<size_t> noisy;
+  std::vector<BsdfCase> again;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    if (albedo[i].standardError() < 0.006) continue;
+    noisy.push_back(i);
+    again.push_back(cases[i]);
+  }
+  const std::vector<test::Moments> better = sampledWeights(again, choice.constants(), 320000);
+  for (size_t i = 0; i < noisy.size(); ++i) albedo[noisy[i]] = better[i];
+  double worst = 0;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const double error = albedo[i].standardError();
+    EXPECT_LT(error, 0.008) << labels[i];
+    EXPECT_NEAR(albedo[i].mean(), 1, 0.01 + error) << labels[i];
+    worst = std::max(worst, std::abs(albedo[i].mean() - 1));
+  }
+  testing::Test::RecordProperty(std::string("worst, ") + choice.name, std::to_string(worst));
 }
 
 } // namespace
