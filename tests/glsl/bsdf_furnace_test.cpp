@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "glsl/bsdf_material_cases.hpp"
+#include "glsl/furnace.hpp"
 #include "render/setting_ids.hpp"
-#include "support/statistics.hpp"
 
 using namespace isophote;
 using gpu::BsdfCase;
@@ -61,36 +61,11 @@ const Lossless kMaterials[] = {
      [](float roughness) { return halfTranslucentGlass(roughness, Side::Inside); }},
 };
 
-// Weights times eta^2, whose mean is the directional albedo, at points of a rank-3 lattice (Roberts 2018).
-std::vector<test::Moments> sampledWeights(const std::vector<BsdfCase>& materials,
-                                          std::span<const gpu::SpecConstant> constants, int count) {
-  const glm::dvec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-  std::vector<test::Moments> result(materials.size());
-  const size_t atOnce = std::max<size_t>(2'000'000 / size_t(count), 1);
-  for (size_t first = 0; first < materials.size(); first += atOnce) {
-    std::vector<BsdfCase> cases;
-    for (size_t m = first; m < std::min(first + atOnce, materials.size()); ++m) {
-      for (int i = 1; i <= count; ++i) {
-        const glm::vec3 u(glm::fract(step * double(i)) * (1 - 1e-7));
-        cases.push_back(materials[m]);
-        cases.back().uLobe = u.x;
-        cases.back().u = {u.y, u.z};
-      }
-    }
-    const auto results = test::probeBsdf(std::move(cases), constants);
-    for (size_t i = 0; i < results.size(); ++i) {
-      const double eta = results[i].eta;
-      const bool isValid = (results[i].flags & gpu::kBsdfValid) != 0;
-      result[first + i / size_t(count)].add(isValid ? double(results[i].weight.y) * eta * eta : 0);
-    }
-  }
-  return result;
-}
-
 // Directional albedos, off by less than 2e-3 against ten times the points.
 std::vector<double> albedos(const std::vector<BsdfCase>& materials, std::span<const gpu::SpecConstant> constants = {}) {
   std::vector<double> result;
-  for (const test::Moments& weights : sampledWeights(materials, constants, 40000)) result.push_back(weights.mean());
+  for (const test::Moments& weights : test::sampledWeights(materials, constants, 40000))
+    result.push_back(weights.mean());
   return result;
 }
 
@@ -142,9 +117,6 @@ const FacetChoice kChoices[] = {
      .fresnel = Fresnel::Exact},
 };
 
-// What the thin tails of Beckmann's and Blinn-Phong's facets lose leaves near the horizon, where a cosine seldom goes:
-// such weights vary much, and get 40 times the points. The lattice's error is below the standard error of random
-// points.
 void expectLossless(const FacetChoice& choice, std::initializer_list<float> roughnesses,
                     std::initializer_list<double> cosines) {
   std::vector<BsdfCase> cases;
@@ -159,24 +131,7 @@ void expectLossless(const FacetChoice& choice, std::initializer_list<float> roug
       }
     }
   }
-  std::vector<test::Moments> albedo = sampledWeights(cases, choice.constants(), 8000);
-  std::vector<size_t> noisy;
-  std::vector<BsdfCase> again;
-  for (size_t i = 0; i < cases.size(); ++i) {
-    if (albedo[i].standardError() < 0.006) continue;
-    noisy.push_back(i);
-    again.push_back(cases[i]);
-  }
-  const std::vector<test::Moments> better = sampledWeights(again, choice.constants(), 320000);
-  for (size_t i = 0; i < noisy.size(); ++i) albedo[noisy[i]] = better[i];
-  double worst = 0;
-  for (size_t i = 0; i < cases.size(); ++i) {
-    const double error = albedo[i].standardError();
-    EXPECT_LT(error, 0.008) << labels[i];
-    EXPECT_NEAR(albedo[i].mean(), 1, 0.01 + error) << labels[i];
-    worst = std::max(worst, std::abs(albedo[i].mean() - 1));
-  }
-  testing::Test::RecordProperty(std::string("worst, ") + choice.name, std::to_string(worst));
+  test::expectAllLight(cases, labels, choice.constants(), choice.name);
 }
 
 } // namespace
