@@ -221,6 +221,11 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
                                    {"exact", "off"},
                                    {"leaves_out", "the bending of light that glass lets through to other surfaces"}};
   }
+  if (settings.estimator.fresnel == Fresnel::Schlick) {
+    json["fresnel"] = {{"value", "schlick"},
+                       {"exact", "exact"},
+                       {"leaves_out", "the difference of glass's reflectance from Schlick's approximation"}};
+  }
   return json;
 }
 

@@ -27,7 +27,7 @@ ISOPHOTE_CONST uint kGgxAlbedoSize = kGgxAlbedoMeans + kGgxAlbedoRoughnessCount;
 // other. Item 0 is the range of roughness, item 1 that of strength; then follow planes of one roughness and strength,
 // kAnisotropyRoughnessCount (or 1 where the range is a point) a strength, kAnisotropyStrengthCount (or 1) strengths. A
 // plane has kAnisotropyAzimuthCount rows of kAnisotropyMuCount columns and the mean over the hemisphere.
-ISOPHOTE_CONST uint kAnisotropyMuCount = 64u;
+ISOPHOTE_CONST uint kAnisotropyMuCount = 96u;
 ISOPHOTE_CONST uint kAnisotropyAzimuthCount = 12u;
 ISOPHOTE_CONST uint kAnisotropyRoughnessCount = 16u;
 ISOPHOTE_CONST uint kAnisotropyStrengthCount = 12u;

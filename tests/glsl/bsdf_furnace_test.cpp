@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "glsl/bsdf_material_cases.hpp"
+#include "glsl/furnace.hpp"
 #include "render/setting_ids.hpp"
 
 using namespace isophote;
@@ -60,30 +61,11 @@ const Lossless kMaterials[] = {
      [](float roughness) { return halfTranslucentGlass(roughness, Side::Inside); }},
 };
 
-// Mean of weight times eta^2, the directional albedo, by a rank-3 lattice (Roberts 2018). Off by less than 2e-3 against
-// ten times the points.
-std::vector<double> albedos(const std::vector<BsdfCase>& materials, std::span<const gpu::SpecConstant> constants = {},
-                            int count = 40000) {
-  const glm::dvec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-  std::vector<double> result(materials.size(), 0);
-  const size_t atOnce = 50;
-  for (size_t first = 0; first < materials.size(); first += atOnce) {
-    std::vector<BsdfCase> cases;
-    for (size_t m = first; m < std::min(first + atOnce, materials.size()); ++m) {
-      for (int i = 1; i <= count; ++i) {
-        const glm::vec3 u(glm::fract(step * double(i)) * (1 - 1e-7));
-        cases.push_back(materials[m]);
-        cases.back().uLobe = u.x;
-        cases.back().u = {u.y, u.z};
-      }
-    }
-    const auto results = test::probeBsdf(std::move(cases), constants);
-    for (size_t i = 0; i < results.size(); ++i) {
-      if ((results[i].flags & gpu::kBsdfValid) == 0) continue;
-      const double eta = results[i].eta;
-      result[first + i / size_t(count)] += double(results[i].weight.y) * eta * eta / count;
-    }
-  }
+// Directional albedos, off by less than 2e-3 against ten times the points.
+std::vector<double> albedos(const std::vector<BsdfCase>& materials, std::span<const gpu::SpecConstant> constants = {}) {
+  std::vector<double> result;
+  for (const test::Moments& weights : test::sampledWeights(materials, constants, 40000))
+    result.push_back(weights.mean());
   return result;
 }
 
@@ -135,7 +117,6 @@ const FacetChoice kChoices[] = {
      .fresnel = Fresnel::Exact},
 };
 
-// 8000 points of the lattice; the bound has room for their error, below 4e-3.
 void expectLossless(const FacetChoice& choice, std::initializer_list<float> roughnesses,
                     std::initializer_list<double> cosines) {
   std::vector<BsdfCase> cases;
@@ -150,8 +131,7 @@ void expectLossless(const FacetChoice& choice, std::initializer_list<float> roug
       }
     }
   }
-  const auto albedo = albedos(cases, choice.constants(), 8000);
-  for (size_t i = 0; i < cases.size(); ++i) EXPECT_NEAR(albedo[i], 1, 0.01) << labels[i];
+  test::expectAllLight(cases, labels, choice.constants(), choice.name);
 }
 
 } // namespace

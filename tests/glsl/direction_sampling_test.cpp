@@ -193,8 +193,6 @@ TEST(DirectionSampling, SamplesFollowTheDensityWhichIntegratesToOne) {
 // transmission. Half glass, so that every choice is made.
 TEST(DirectionSampling, SamplesOfOtherFacetsFollowTheDensity) {
   const std::pair<Ndf, DirectionSampling> choices[] = {{Ndf::BlinnPhong, DirectionSampling::Lobes},
-                                                       {Ndf::BlinnPhong, DirectionSampling::Ndf},
-                                                       {Ndf::Beckmann, DirectionSampling::VisibleNormals},
                                                        {Ndf::Beckmann, DirectionSampling::Mixture}};
   const double significance = test::sidak(1e-3, std::size(choices));
   uint32_t seed = 50;

@@ -360,6 +360,26 @@ TEST(Layers, SheenOverWhiteReflectsEverythingUnderACoatToo) {
   }
 }
 
+// Over rough metals and dielectrics, whose lobes the midpoints resolve, too.
+TEST(Layers, NeverReflectMoreThanArrives) {
+  std::vector<LayersCase> surfaces;
+  for (const double cosine : {1.0, 0.3, 0.05}) {
+    for (const LayersCase& base : {bare(glm::vec3(1), 0, 0.7f), bare(glm::vec3(1), 1, 0.7f)}) {
+      for (const float roughness : {0.0f, 0.25f, 1.0f}) {
+        const LayersCase sheen = velvet(base, {0.5f, 1, 0}, roughness);
+        for (const LayersCase& surface : {coated(base, 1, 0), coated(base, 0.5f, 1), sheen, coated(sheen, 1, 0)}) {
+          surfaces.push_back(surface);
+          surfaces.back().wo = test::directionOf(cosine, 0.3);
+        }
+      }
+    }
+  }
+  const auto albedos = integratedAlbedos(surfaces);
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    EXPECT_LT(albedos[i], 1 + 1.2e-2) << describe(surfaces[i]);
+  }
+}
+
 // A film over white, of any thickness, index and roughness: what its brightest channel reflects, the diffuse lobe does
 // not have. The lattice is off by up to 2e-3.
 TEST(Layers, FilmsOverWhiteNeverReflectMoreThanArrives) {

@@ -50,6 +50,9 @@ struct Figure {
   uint32_t bounces = 10;
   DirectionSampling directions = DirectionSampling::Lobes;
   LightSampling lights = LightSampling::BsdfOnly; // the course's pictures find lights by chance until its last chapter
+  Ndf ndf = Ndf::Ggx;
+  Masking masking = Masking::Correlated;
+  Fresnel fresnel = Fresnel::Gltf;
 };
 
 Image render(const Scene& scene, const Figure& figure) {
@@ -58,12 +61,21 @@ Image render(const Scene& scene, const Figure& figure) {
   estimator.lightSelection = LightSelection::Uniform; // "when lights are picked uniformly"
   estimator.maxDepth = figure.bounces;
   estimator.directionSampling = figure.directions;
+  estimator.ndf = figure.ndf;
+  estimator.masking = figure.masking;
+  estimator.fresnel = figure.fresnel;
   return renderImage(scene, courseCamera(), kWidth, kHeight, figure.samples, {.estimator = estimator});
 }
 
-Image reference(const Scene& scene, uint32_t bounces) {
-  return render(scene, {.samples = kReferenceSamples, .bounces = bounces, .lights = LightSampling::Mis});
+/// The figure's own surface, by the default's sampling.
+Image reference(const Scene& scene, Figure figure) {
+  figure.samples = kReferenceSamples;
+  figure.directions = DirectionSampling::Lobes;
+  figure.lights = LightSampling::Mis;
+  return render(scene, figure);
 }
+
+Image reference(const Scene& scene, uint32_t bounces) { return reference(scene, Figure{.bounces = bounces}); }
 
 /// Mean variance of the pixels' means, all channels.
 double noise(const Image& image) {
@@ -217,6 +229,47 @@ TEST(LectureFigures, GlassOfRoughnessTwoAndEightTenths) {
     SCOPED_TRACE(alpha);
     expectSame(image, reference(scene, 10));
   }
+}
+
+// "Normal distribution function: Beckmann, Blinn": as distributions whose integral of D cos is 1, drawn by themselves.
+TEST(LectureFigures, MicrofacetsOfBeckmannAndBlinn) {
+  for (const Ndf ndf : {Ndf::Beckmann, Ndf::BlinnPhong}) {
+    SCOPED_TRACE(uint32_t(ndf));
+    const Scene scene = courseScene(courseMetal(0.2f));
+    const Figure figure{.samples = 800, .directions = DirectionSampling::Ndf, .ndf = ndf};
+    expectSame(render(scene, figure), reference(scene, figure));
+  }
+}
+
+// "Geometric attenuation: multiple models exist". The course's, Smith's of GGX with 2 cos cos over a sum, is the
+// default, correlated by height; the other is the product of both maskings.
+TEST(LectureFigures, SeparableMasking) {
+  const Scene scene = courseScene(courseMetal(0.8f));
+  const Figure figure{.samples = 400, .directions = DirectionSampling::VisibleNormals, .masking = Masking::Separable};
+  expectSame(render(scene, figure), reference(scene, figure));
+}
+
+// "Transmission: prob = F(((n1 - n2) / (n1 + n2))^2)": smooth glass by Snell's law and Schlick's approximation, its
+// cosine that of the less dense side, and by the Fresnel equations. The pictures differ by less than a twentieth.
+TEST(LectureFigures, SmoothGlassBySchlickAndByFresnel) {
+  Material glass = coursePlastic(0);
+  glass.baseColor = glm::vec4(1);
+  glass.transmission.factor = 1;
+  glass.volume.thickness = 1;
+  const Scene scene = courseScene(glass);
+  const Figure schlick{.samples = 2000, .fresnel = Fresnel::Schlick};
+  Figure exact = schlick;
+  exact.fresnel = Fresnel::Exact;
+  const Image bySchlick = render(scene, schlick), byFresnel = render(scene, exact);
+  expectSame(bySchlick, reference(scene, schlick));
+  expectSame(byFresnel, reference(scene, exact));
+  double sum = 0, difference = 0;
+  const std::vector<float> a = plane(bySchlick, "G"), b = plane(byFresnel, "G");
+  for (size_t i = 0; i < a.size(); ++i) {
+    sum += double(b[i]);
+    difference += double(a[i]) - double(b[i]);
+  }
+  EXPECT_LT(std::abs(difference), 0.05 * sum);
 }
 
 // The round lamp by a point on its area, with the cosine that the course leaves out, and by chance.

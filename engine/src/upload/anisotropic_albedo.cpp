@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t kMuCount = gpu::kAnisotropyMuCount;
 constexpr uint32_t kAzimuthCount = gpu::kAnisotropyAzimuthCount;
-constexpr NormalQuadrature kQuadrature{24, 32, false};
+constexpr NormalQuadrature kQuadrature{24, 24, false};
 
 /// One row of a plane: (A, B) at mu = (c / (kMuCount - 1))^2.
 using Row = std::array<glm::dvec2, kMuCount>;
