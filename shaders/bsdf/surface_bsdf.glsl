@@ -121,6 +121,10 @@ float broadThroughBoth(const SceneRef scene, const SurfaceBsdf bsdf, const Layer
          meanPassed(lost, at.base);
 }
 
+// A coat's and a sheen's couplings with facets both favor steep directions, so that their product would send back more
+// than arrives, by up to 0.93% (docs/bsdf-layers.md).
+const float kBothLayersLoss = 0.01;
+
 // What the layers leave of what the base scatters from wo to wi. Thin walls carry them on both sides, so that
 // transmission passes them as reflection does.
 LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
@@ -140,7 +144,8 @@ LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const 
     const LayerCell cell = layerCell(abs(wiLocal.z), sheenRow(bsdf.sheen));
     const LayerPassage sheen =
         layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell, sheenAmount(bsdf.sheen), at.base);
-    passage.narrow *= sheen.narrow;
+    passage.narrow *=
+        sheen.narrow * (coated ? 1.0 - kBothLayersLoss * bsdf.coat.amount * sheenAmount(bsdf.sheen) : 1.0);
     passage.broad = coated ? broadThroughBoth(scene, bsdf, at, coatCell, cell) : sheen.broad;
   }
   return passage;

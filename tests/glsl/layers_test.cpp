@@ -379,7 +379,7 @@ TEST(Layers, SheenOverWhiteReflectsEverythingUnderACoatToo) {
   }
 }
 
-// Over rough metals and dielectrics, whose lobes the midpoints resolve, too.
+// Over rough metals and dielectrics, whose lobes the midpoints resolve, too. 3e-3: the errors of the tables.
 TEST(Layers, NeverReflectMoreThanArrives) {
   std::vector<LayersCase> surfaces;
   for (const double cosine : {1.0, 0.3, 0.05}) {
@@ -395,7 +395,7 @@ TEST(Layers, NeverReflectMoreThanArrives) {
   }
   const auto albedos = integratedAlbedos(surfaces);
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    EXPECT_LT(albedos[i], 1 + 1.2e-2) << describe(surfaces[i]);
+    EXPECT_LT(albedos[i], 1 + 3e-3) << describe(surfaces[i]);
   }
 }
 

@@ -301,6 +301,7 @@ LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm:
   if (sheenCoupling_) {
     const Passage sheen = through(*sheenCoupling_, largest(sheen_.color), wo.z, std::abs(wi.z));
     result.narrow *= sheen.narrow;
+    if (coatCoupling_) result.narrow *= 1 - 0.01 * coat_.amount * largest(sheen_.color);
     result.broad = coatCoupling_ ? broadThroughBoth(wo, wi) : sheen.broad;
   }
   return result;
