@@ -35,6 +35,7 @@ struct LayersAtWo {
   LayerCell coatCell;
   LayerCell sheenCell;
   LayerBase base;
+  LayerBaseAt baseAtWo;
   float coatProbability;  // of sampling the coat
   float sheenProbability; // of sampling the sheen where not the coat; the rest is the base's
 };
@@ -51,13 +52,24 @@ float choiceRemainder(const float u, const float probability) {
 // The base keeps a share of the samples however dark it seems: its grazing reflection is white.
 const float kMinBaseLuminance = 0.05;
 
+LayerBaseAt layerBaseAt(const SceneRef scene, const SurfaceBsdf bsdf, const LayerBase base, const float mu) {
+  if (!kHasSpecular) return LayerBaseAt(vec2(0.0), 1.0);
+  const vec2 albedo = ggxAlbedo(scene, mu, albedoAlpha(bsdf.base));
+  const float passed = coatTransmission(bsdf.base, albedo, base.multiple, lostBetweenFacets(albedo));
+  return LayerBaseAt(albedo, max(passed, 1e-4)); // the lobe that it divides has been multiplied by it
+}
+
 LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
   LayersAtWo at;
-  at.base = LayerBase(1.0, 0.0, 0.0, 1.0);
+  at.base = LayerBase(1.0, 0.0, 0.0, 0.0, vec2(0.0), 1.0);
   if (kHasSpecular) {
-    const float mean = baseShares(scene, bsdf.base, woLocal.z).meanCoat;
-    at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90, mean);
+    const BaseShares shares = baseShares(scene, bsdf.base, woLocal.z);
+    const float alpha = albedoAlpha(bsdf.base);
+    at.base =
+        LayerBase(sqrt(alpha), bsdf.base.dielectricF0, bsdf.base.dielectricF90,
+                  kMultipleScattering == 1u ? shares.coatMultiple : 0.0, ggxMeanAlbedo(scene, alpha), shares.meanCoat);
   }
+  at.baseAtWo = layerBaseAt(scene, bsdf, at.base, woLocal.z);
   float reachable = 1.0; // share of the light that comes down to the layer at hand
   float coatShare = 0.0;
   if (kHasClearcoat && bsdf.coat.amount > 0.0) {
@@ -135,15 +147,17 @@ LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const 
   }
   if (bsdf.insideSolid) return passage;
   const bool coated = kHasClearcoat && bsdf.coat.amount > 0.0;
+  const LayerBaseAt baseAtWi = layerBaseAt(scene, bsdf, at.base, abs(wiLocal.z));
   LayerCell coatCell;
   if (coated) {
     coatCell = layerCell(abs(dot(bsdf.coat.normalLocal, wiLocal)), bsdf.coat.roughness);
-    passage = layerPassage(FloatRef(scene.view.clearcoatTable), at.coatCell, coatCell, bsdf.coat.amount, at.base);
+    passage = layerPassage(FloatRef(scene.view.clearcoatTable), at.coatCell, coatCell, bsdf.coat.amount, at.base,
+                           at.baseAtWo, baseAtWi);
   }
   if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
     const LayerCell cell = layerCell(abs(wiLocal.z), sheenRow(bsdf.sheen));
-    const LayerPassage sheen =
-        layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell, sheenAmount(bsdf.sheen), at.base);
+    const LayerPassage sheen = layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell,
+                                            sheenAmount(bsdf.sheen), at.base, at.baseAtWo, baseAtWi);
     passage.narrow *=
         sheen.narrow * (coated ? 1.0 - kBothLayersLoss * bsdf.coat.amount * sheenAmount(bsdf.sheen) : 1.0);
     passage.broad = coated ? broadThroughBoth(scene, bsdf, at, coatCell, cell) : sheen.broad;

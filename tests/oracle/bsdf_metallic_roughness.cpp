@@ -36,8 +36,7 @@ glm::dvec3 multipleReflectance(const MetallicRoughness& m, const glm::dvec3& f0,
 
 // What the coat over the diffuse lobe reflects, by (A, B) in one direction or their mean.
 double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
-  const double multiple = multipleReflectance(m, glm::dvec3(m.dielectricF0), glm::dvec3(m.dielectricF90)).x;
-  return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost(m, albedo);
+  return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + coatMultipleReflectance(m) * lost(m, albedo);
 }
 
 // What the coat passes in one direction; of a film no more than its brightest channel leaves.
@@ -341,6 +340,10 @@ glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, co
   const bool behind = wiLocal.z < 0;
   const double muI = std::abs(wiLocal.z);
   return (diffuse(m, woLocal.z, muI, behind) + glassMultipleLobe(m, woLocal.z, muI, behind)) * muI;
+}
+
+double coatMultipleReflectance(const MetallicRoughness& m) {
+  return multipleReflectance(m, glm::dvec3(m.dielectricF0), glm::dvec3(m.dielectricF90)).x;
 }
 
 double meanCoatTransmission(const MetallicRoughness& m) {

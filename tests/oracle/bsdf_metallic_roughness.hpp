@@ -73,6 +73,9 @@ struct BsdfSample {
 /// The part of it of the diffuse lobe and of scattering between facets of glass.
 [[nodiscard]] glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 
+/// Reflectance of scattering between the facets of the dielectric coat over the diffuse lobe.
+[[nodiscard]] double coatMultipleReflectance(const MetallicRoughness& m);
+
 /// Mean share of light that passes the dielectric coat over the diffuse lobe.
 [[nodiscard]] double meanCoatTransmission(const MetallicRoughness& m);
 

@@ -62,8 +62,14 @@ double layerRow(uint32_t r) { return r / double(gpu::kLayerRoughnessCount - 1); 
 
 // ---- A white microfacet base: where it sends light, by cosines alone. ----
 
-/// Row c: the share of light of node c that node k receives. Rows sum to 1.
+/// Row c: the share of light of node c that node k receives.
 using Transport = std::array<Row, kMuCount>;
+
+struct WhiteBase {
+  Transport all;     ///< rows sum to 1
+  Transport single;  ///< by one reflection at a facet
+  Transport grazing; ///< the part of that which Schlick's approximation weighs by f90
+};
 
 void spread(Row& shares, double mu, double weight) {
   const double position = std::sqrt(std::clamp(mu, 0.0, 1.0)) * (kMuCount - 1);
@@ -73,10 +79,9 @@ void spread(Row& shares, double mu, double weight) {
 }
 
 /// One row by visible normals, as in ggx_albedo.cpp: the weight of a normal is G2 / G1 of its reflection.
-Row reflectedShares(double mu, double alpha) {
+void addReflectedShares(double mu, double alpha, Row& shares, Row& grazing) {
   constexpr int kHeightCount = 32;
   constexpr int kAzimuthCount = 16;
-  Row shares{};
   const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
   const glm::dvec3 view = glm::normalize(glm::dvec3(alpha * wo.x, 0, wo.z));
   const auto projectedLength = [alpha](double z) { return std::sqrt(alpha * alpha * (1 - z * z) + z * z); };
@@ -93,19 +98,22 @@ Row reflectedShares(double mu, double alpha) {
       const double wiZ = 2 * (wo.x * wm.x + wo.z * wm.z) * wm.z - wo.z;
       if (wiZ <= 0) continue;
       const double weight = wiZ * (mu + lengthO) / (mu * projectedLength(wiZ) + wiZ * lengthO);
-      spread(shares, wiZ, 2 * t * weight / (kHeightCount * kAzimuthCount));
+      const double share = 2 * t * weight / (kHeightCount * kAzimuthCount);
+      spread(shares, wiZ, share);
+      spread(grazing, wiZ, share * std::pow(1 - (wo.x * wm.x + wo.z * wm.z), 5));
     }
   }
-  return shares;
 }
 
 /// What single reflection loses returns by the cosine and its own loss, as in Kulla and Conty 2017, "Revisiting
 /// Physically Based Shading at Imageworks".
-Transport whiteTransport(double roughness) {
-  Transport transport;
+WhiteBase whiteBase(double roughness) {
+  WhiteBase base{};
+  Transport& transport = base.all;
   Row lost{};
   for (uint32_t c = 0; c < kMuCount; ++c) {
-    transport[c] = reflectedShares(nodeRoot(c) * nodeRoot(c), roughness * roughness);
+    addReflectedShares(nodeRoot(c) * nodeRoot(c), roughness * roughness, base.single[c], base.grazing[c]);
+    transport[c] = base.single[c];
     double sum = 0;
     for (const double share : transport[c]) sum += share;
     lost[c] = std::max(1 - sum, 0.0);
@@ -126,7 +134,7 @@ Transport whiteTransport(double roughness) {
     for (uint32_t k = 0; k < kMuCount; ++k) sum += transport[c][k] += total > 0 ? lost[c] * returned[k] / total : 0;
     for (double& share : transport[c]) share /= sum;
   }
-  return transport;
+  return base;
 }
 
 /// The function g with g(mu) * (mean of g where the base sends light of mu) = passed(mu), by fixed-point iteration of
@@ -147,6 +155,27 @@ Row symmetricScaling(const Transport& transport, const Row& passed) {
   return g;
 }
 
+double received(const Row& shares, const Row& g) {
+  double sum = 0;
+  for (uint32_t k = 0; k < kMuCount; ++k) sum += shares[k] * g[k];
+  return sum;
+}
+
+/// The shares of the facets' albedo, by Schlick's weights A and B, that leave a layer of coupling g.
+std::array<Row, 2> leavingShares(const WhiteBase& base, const Row& g) {
+  Row one;
+  one.fill(1);
+  std::array<Row, 2> through;
+  for (uint32_t c = 0; c < kMuCount; ++c) {
+    const double grazing = received(base.grazing[c], one), normal = received(base.single[c], one) - grazing;
+    const double grazingThrough = received(base.grazing[c], g);
+    const double normalThrough = received(base.single[c], g) - grazingThrough;
+    through[0][c] = g[c] * (normal > 1e-9 ? normalThrough / normal : grazingThrough / grazing);
+    through[1][c] = g[c] * (grazing > 1e-9 ? grazingThrough / grazing : normalThrough / normal);
+  }
+  return through;
+}
+
 // ---- Layers ----
 
 struct LayerAlbedo {
@@ -157,8 +186,8 @@ struct LayerAlbedo {
 /// @param layerAlbedo of a row
 std::vector<float> computeTable(const std::function<LayerAlbedo(uint32_t)>& layerAlbedo) {
   std::vector<float> table(gpu::kLayerTableSize);
-  std::array<Transport, gpu::kLayerBaseCount> transports;
-  for (uint32_t b = 1; b < gpu::kLayerBaseCount; ++b) transports[b] = whiteTransport(baseRoughness(b));
+  std::vector<WhiteBase> bases(gpu::kLayerBaseCount);
+  for (uint32_t b = 1; b < gpu::kLayerBaseCount; ++b) bases[b] = whiteBase(baseRoughness(b));
   for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) {
     const LayerAlbedo layer = layerAlbedo(r);
     std::copy(layer.albedo.begin(), layer.albedo.end(), &table[gpu::kLayerAlbedo + r * kMuCount]);
@@ -175,12 +204,19 @@ std::vector<float> computeTable(const std::function<LayerAlbedo(uint32_t)>& laye
             static_cast<float>(meanOfProduct(ggx[i], layer.albedo) - mean(ggx[i]) * layerMean);
       }
       Row g;
+      std::array<Row, 2> through{passed, passed};
       if (b > 0) {
-        g = symmetricScaling(transports[b], passed);
+        g = symmetricScaling(bases[b].all, passed);
+        through = leavingShares(bases[b], g);
       } else { // a mirror sends light of mu to mu
         std::transform(passed.begin(), passed.end(), g.begin(), [](double share) { return std::sqrt(share); });
       }
       std::copy(g.begin(), g.end(), &table[gpu::kLayerNarrow + cell * kMuCount]);
+      for (uint32_t i = 0; i < 2; ++i) {
+        std::copy(through[i].begin(), through[i].end(),
+                  &table[gpu::kLayerThrough + i * gpu::kLayerThroughStride + cell * kMuCount]);
+        table[gpu::kLayerThroughMean + 2 * cell + i] = static_cast<float>(meanOfProduct(ggx[i], through[i]));
+      }
     }
   }
   return table;
