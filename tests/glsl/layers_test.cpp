@@ -344,8 +344,9 @@ constexpr float kRoughnesses[] = {0, 0.05f, 0.2f, 0.5f, 1};
 
 namespace {
 
-// White surfaces under one layer of every listed roughness, at normal and grazing view. Points of the lattice enough
-// for 2e-3; 8e-3 of a sheen of roughness 0.05, a hairline at the horizon, for which SheenOverWhite... is exact.
+// White surfaces under one layer of every listed roughness, at normal and grazing view. The lattice is off by up to
+// 5e-3. Sheens of lower roughness are a hairline at the horizon, for which it is no use; SheenOverWhite... integrates
+// those.
 void expectLosslessUnderOneLayer(const std::vector<LayersCase>& bases) {
   std::vector<LayersCase> surfaces;
   for (const double cosine : {1.0, 0.05}) {
@@ -353,6 +354,7 @@ void expectLosslessUnderOneLayer(const std::vector<LayersCase>& bases) {
       for (const LayersCase& base : bases) {
         for (const LayersCase& surface :
              {coated(base, 1, roughness), coated(base, 0.5f, roughness), velvet(base, glm::vec3(1), roughness)}) {
+          if (surface.sheenColor.x > 0 && roughness < 0.1f) continue;
           surfaces.push_back(surface);
           surfaces.back().wo = test::directionOf(cosine, 0.3);
         }
