@@ -106,8 +106,48 @@ struct LayerBase {
   float roughness;
   float f0;
   float f90;
+  float multiple;         // reflectance of scattering between facets
+  vec2 meanAlbedo;        // (A, B) of white facets
   float meanTransmission; // of that coat, > 0
 };
+
+/// That coat in one direction.
+struct LayerBaseAt {
+  vec2 albedo;        // (A, B)
+  float transmission; // > 0
+};
+
+/// Shares of A and B that leave the layer.
+vec2 readLayerThrough(FloatRef table, const LayerCell cell, const float baseRoughness) {
+  return vec2(readLayerWith(table, kLayerThrough, cell, baseRoughness),
+              readLayerWith(table, kLayerThrough + kLayerThroughStride, cell, baseRoughness));
+}
+
+/// Cosine-weighted means of A and B that leave the layer.
+vec2 readLayerThroughMeans(FloatRef table, const LayerCell cell, const float baseRoughness) {
+  const float position = clamp(baseRoughness, 0.0, 1.0) * float(kLayerBaseCount - 1u);
+  const uint b = min(uint(position), kLayerBaseCount - 2u);
+  vec2 rows[2];
+  for (uint i = 0u; i < 2u; ++i) {
+    const uint first = kLayerThroughMean + 2u * ((cell.row + i) * kLayerBaseCount + b);
+    rows[i] = mix(vec2(table.items[first], table.items[first + 1u]),
+                  vec2(table.items[first + 2u], table.items[first + 3u]), position - float(b));
+  }
+  return mix(rows[0], rows[1], cell.rowFraction);
+}
+
+/// What the layer and the facets below it leave for the diffuse lobe to give back, in one direction or in the mean.
+/// @param reflected by the layer
+/// @param albedo    (A, B) of the facets without it
+/// @param through   and what of that leaves it
+float leftForDiffuse(const float reflected, const vec2 albedo, const vec2 through, const float amount,
+                     const LayerBase base) {
+  const float lost = max(1.0 - albedo.x - albedo.y, 0.0);
+  const float lostThrough = max(1.0 - reflected - through.x - through.y, 0.0);
+  const vec2 facets = mix(albedo, through, amount);
+  return 1.0 - amount * reflected -
+         (base.f0 * facets.x + base.f90 * facets.y + base.multiple * mix(lost, lostThrough, amount));
+}
 
 /// Mean over the hemisphere of what layers pass times what the coat of the base passes, over the mean of the latter.
 /// @param lost of light on its way through the layers, as readLayerMeans has it
@@ -118,14 +158,19 @@ float meanPassed(const vec3 lost, const LayerBase base) {
 /// @param cellO, cellI of wo and wi in the layer's row
 /// @param amount       coverage of the layer, in [0, 1]
 LayerPassage layerPassage(FloatRef table, const LayerCell cellO, const LayerCell cellI, const float amount,
-                          const LayerBase base) {
-  const float passedO = 1.0 - readLayer(table, kLayerAlbedo, cellO);
-  const float passedI = 1.0 - readLayer(table, kLayerAlbedo, cellI);
-  const float mean = meanPassed(readLayerMeans(table, cellO, base.roughness), base);
+                          const LayerBase base, const LayerBaseAt baseO, const LayerBaseAt baseI) {
+  const float leftO = leftForDiffuse(readLayer(table, kLayerAlbedo, cellO), baseO.albedo,
+                                     baseO.albedo * readLayerThrough(table, cellO, base.roughness), amount, base);
+  const float leftI = leftForDiffuse(readLayer(table, kLayerAlbedo, cellI), baseI.albedo,
+                                     baseI.albedo * readLayerThrough(table, cellI, base.roughness), amount, base);
+  const float mean = leftForDiffuse(readLayerMeans(table, cellO, base.roughness).x, base.meanAlbedo,
+                                    readLayerThroughMeans(table, cellO, base.roughness), amount, base);
   const float narrow = readLayerNarrow(table, cellO, base.roughness) * readLayerNarrow(table, cellI, base.roughness);
   LayerPassage passage;
   passage.narrow = 1.0 + amount * (narrow - 1.0);
-  passage.broad = 1.0 + amount * (passedO * passedI / mean - 1.0);
+  // In place of the coat's own transmissions, by which the base has multiplied its diffuse lobe.
+  passage.broad = max(leftO, 0.0) * max(leftI, 0.0) * base.meanTransmission /
+                  (max(mean, kMinCoatTransmission) * baseO.transmission * baseI.transmission);
   return passage;
 }
 

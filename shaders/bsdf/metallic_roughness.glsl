@@ -49,8 +49,8 @@ struct MetallicRoughness {
 
 /// Of the base's continuous lobes, f |cos wi| in two parts, which the layers above pass differently.
 struct BaseValue {
-  vec3 facets;         // of single scattering by microfacets
-  vec3 diffuse;        // of the lobes that follow the cosine: the diffuse one, and multiple scattering
+  vec3 facets;         // of microfacets, scattering between opaque ones included
+  vec3 diffuse;        // of the diffuse lobe, and scattering between facets of glass
   float pdfSolidAngle; // of sampleBase, per steradian of wi
 };
 
@@ -426,10 +426,9 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
   const float entering = coatTransmissionAt(scene, m, wiLocal.z, albedo, shares.coatMultiple, lost);
   const float cosine = kInvPi * wiLocal.z;
   BaseValue value;
-  value.facets = vec3(0.0);
   const float staying = m.diffuse * (1.0 - crossingShare(m.behind));
-  value.diffuse = m.baseColor * (staying * (shares.coat * entering / shares.meanCoat) * cosine) +
-                  shares.multiple * (shares.lost * lost / shares.meanLost * cosine);
+  value.diffuse = m.baseColor * (staying * (shares.coat * entering / shares.meanCoat) * cosine);
+  value.facets = shares.multiple * (shares.lost * lost / shares.meanLost * cosine);
   if (kHasTransmission && m.glass > 0.0) {
     const GlassMultiple glass = shares.glass;
     const float continued = glass.lost * glassLossAt(scene, m, wiLocal, false) / glass.meanInFront;
@@ -443,7 +442,7 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
     const vec2 width = m.width;
     const float shape = facetD(wm, width) * facetVisibility(woLocal, wiLocal, width) * wiLocal.z;
     const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
-    value.facets = facet.reflected * shape;
+    value.facets += facet.reflected * shape;
     value.pdfSolidAngle += shares.facetProbability * facet.reflectedShare * pdfVisibleReflection(woLocal, wm, width);
   }
   return value;

@@ -38,6 +38,7 @@ struct LayersAtWo {
   LayerCell coatCell;
   LayerCell sheenCell;
   LayerBase base;
+  LayerBaseAt baseAtWo;
   float coatProbability;  // of sampling the coat
   float sheenProbability; // of sampling the sheen where not the coat; the rest is the base's
 };
@@ -54,13 +55,24 @@ float choiceRemainder(const float u, const float probability) {
 // The base keeps a share of the samples however dark it seems: its grazing reflection is white.
 const float kMinBaseLuminance = 0.05;
 
+LayerBaseAt layerBaseAt(const SceneRef scene, const SurfaceBsdf bsdf, const LayerBase base, const vec3 w) {
+  if (!kHasSpecular) return LayerBaseAt(vec2(0.0), 1.0);
+  const vec2 albedo = facetAlbedo(scene, bsdf.base, w);
+  const float passed =
+      coatTransmissionAt(scene, bsdf.base, abs(w.z), albedo, base.multiple, lostBetweenFacets(albedo));
+  return LayerBaseAt(albedo, max(passed, 1e-4)); // the lobe that it divides has been multiplied by it
+}
+
 LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
   LayersAtWo at;
-  at.base = LayerBase(1.0, 0.0, 0.0, 1.0);
+  at.base = LayerBase(1.0, 0.0, 0.0, 0.0, vec2(0.0), 1.0);
   if (kHasSpecular) {
-    const float mean = baseShares(scene, bsdf.base, woLocal).meanCoat;
-    at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90, mean);
+    const BaseShares shares = baseShares(scene, bsdf.base, woLocal);
+    at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90,
+                        kMultipleScattering == 1u ? shares.coatMultiple : 0.0, facetMeanAlbedo(scene, bsdf.base),
+                        shares.meanCoat);
   }
+  at.baseAtWo = layerBaseAt(scene, bsdf, at.base, woLocal);
   float reachable = 1.0; // share of the light that comes down to the layer at hand
   float coatShare = 0.0;
   if (kHasClearcoat && bsdf.coat.amount > 0.0) {
@@ -124,6 +136,10 @@ float broadThroughBoth(const SceneRef scene, const SurfaceBsdf bsdf, const Layer
          meanPassed(lost, at.base);
 }
 
+// A coat's and a sheen's couplings with facets both favor steep directions, so that their product would send back more
+// than arrives, by up to 0.93% (docs/bsdf-layers.md).
+const float kBothLayersLoss = 0.01;
+
 // What the layers leave of what the base scatters from wo to wi. Thin walls carry them on both sides, so that
 // transmission passes them as reflection does.
 LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
@@ -134,16 +150,19 @@ LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const 
   }
   if (bsdf.insideSolid) return passage;
   const bool coated = kHasClearcoat && bsdf.coat.amount > 0.0;
+  const LayerBaseAt baseAtWi = layerBaseAt(scene, bsdf, at.base, wiLocal);
   LayerCell coatCell;
   if (coated) {
     coatCell = layerCell(abs(dot(bsdf.coat.normalLocal, wiLocal)), bsdf.coat.roughness);
-    passage = layerPassage(FloatRef(scene.view.clearcoatTable), at.coatCell, coatCell, bsdf.coat.amount, at.base);
+    passage = layerPassage(FloatRef(scene.view.clearcoatTable), at.coatCell, coatCell, bsdf.coat.amount, at.base,
+                           at.baseAtWo, baseAtWi);
   }
   if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
     const LayerCell cell = layerCell(abs(wiLocal.z), sheenRow(bsdf.sheen));
-    const LayerPassage sheen =
-        layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell, sheenAmount(bsdf.sheen), at.base);
-    passage.narrow *= sheen.narrow;
+    const LayerPassage sheen = layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell,
+                                            sheenAmount(bsdf.sheen), at.base, at.baseAtWo, baseAtWi);
+    passage.narrow *=
+        sheen.narrow * (coated ? 1.0 - kBothLayersLoss * bsdf.coat.amount * sheenAmount(bsdf.sheen) : 1.0);
     passage.broad = coated ? broadThroughBoth(scene, bsdf, at, coatCell, cell) : sheen.broad;
   }
   return passage;

@@ -54,7 +54,11 @@ ISOPHOTE_CONST uint kLayerMean = kLayerScale + kLayerRoughnessCount * kLayerMuCo
 ISOPHOTE_CONST uint kLayerCovariance = kLayerMean + kLayerRoughnessCount; // [r][b][2] of the albedo with GGX's (A, B)
 ISOPHOTE_CONST uint kLayerNarrow =
     kLayerCovariance + 2u * kLayerRoughnessCount * kLayerBaseCount; // [r][b][c] coupling with a microfacet base
-ISOPHOTE_CONST uint kLayerTableSize = kLayerNarrow + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount;
+ISOPHOTE_CONST uint kLayerThrough =
+    kLayerNarrow + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount; // [2][r][b][c] of A, B what leaves the layer
+ISOPHOTE_CONST uint kLayerThroughStride = kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount;
+ISOPHOTE_CONST uint kLayerThroughMean = kLayerThrough + 2u * kLayerThroughStride; // [r][b][2] mean A, B that leaves
+ISOPHOTE_CONST uint kLayerTableSize = kLayerThroughMean + 2u * kLayerRoughnessCount * kLayerBaseCount;
 
 // Behind the sheen's table: what it loses to a clearcoat above of roughness q / (kLayerBaseCount - 1).
 ISOPHOTE_CONST uint kCoatedSheen = kLayerTableSize; // [r][q][c] the mean of the larger of the coat's two albedos

@@ -323,20 +323,39 @@ constexpr float kRoughnesses[] = {0, 0.05f, 0.2f, 0.5f, 1};
 
 } // namespace
 
-// Lossless combinations: a white base that reflects everything keeps doing so under a layer.
-TEST(Layers, OverWhiteReflectEverything) {
+namespace {
+
+// White surfaces under one layer of every listed roughness, at normal and grazing view. The lattice is off by up to
+// 5e-3. Sheens of lower roughness are a hairline at the horizon, for which it is no use; SheenOverWhite... integrates
+// those.
+void expectLosslessUnderOneLayer(const std::vector<LayersCase>& bases) {
   std::vector<LayersCase> surfaces;
-  for (const double cosine : {1.0, 0.1}) {
+  for (const double cosine : {1.0, 0.05}) {
     for (const float roughness : kRoughnesses) {
-      for (const LayersCase& base : {whiteLambert(), bare(glm::vec3(1), 0, 0.5f), bare(glm::vec3(1), 1, 0.0f)}) {
-        surfaces.push_back(coated(base, 1, roughness));
-        surfaces.push_back(coated(base, 0.5f, roughness));
-        for (size_t k = 1; k <= 2; ++k) surfaces[surfaces.size() - k].wo = test::directionOf(cosine, 0.3);
+      for (const LayersCase& base : bases) {
+        for (const LayersCase& surface :
+             {coated(base, 1, roughness), coated(base, 0.5f, roughness), velvet(base, glm::vec3(1), roughness)}) {
+          if (surface.sheenColor.x > 0 && roughness < 0.1f) continue;
+          surfaces.push_back(surface);
+          surfaces.back().wo = test::directionOf(cosine, 0.3);
+        }
       }
     }
   }
-  const auto albedos = sampledAlbedos(surfaces, 38000);
+  const auto albedos = sampledAlbedos(surfaces, 30000);
   for (size_t i = 0; i < surfaces.size(); ++i) EXPECT_NEAR(albedos[i].y, 1, 1e-2) << describe(surfaces[i]);
+}
+
+} // namespace
+
+// Lossless combinations: a white base that reflects everything keeps doing so under a layer.
+TEST(Layers, OverWhiteReflectEverything) {
+  expectLosslessUnderOneLayer({whiteLambert(), bare(glm::vec3(1), 0, 0.2f), bare(glm::vec3(1), 1, 0.5f)});
+}
+
+TEST(Layers, OverWhiteReflectEverythingSlow) {
+  for (const float roughness : kRoughnesses)
+    expectLosslessUnderOneLayer({bare(glm::vec3(1), 0, roughness), bare(glm::vec3(1), 1, roughness)});
 }
 
 // A white sheen of any roughness over white, bare and under a clearcoat, reflects all of it: 1 - 6e-3 to 1 + 2e-3, the
@@ -360,7 +379,7 @@ TEST(Layers, SheenOverWhiteReflectsEverythingUnderACoatToo) {
   }
 }
 
-// Over rough metals and dielectrics, whose lobes the midpoints resolve, too.
+// Over rough metals and dielectrics, whose lobes the midpoints resolve, too. 3e-3: the errors of the tables.
 TEST(Layers, NeverReflectMoreThanArrives) {
   std::vector<LayersCase> surfaces;
   for (const double cosine : {1.0, 0.3, 0.05}) {
@@ -376,7 +395,7 @@ TEST(Layers, NeverReflectMoreThanArrives) {
   }
   const auto albedos = integratedAlbedos(surfaces);
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    EXPECT_LT(albedos[i], 1 + 1.2e-2) << describe(surfaces[i]);
+    EXPECT_LT(albedos[i], 1 + 3e-3) << describe(surfaces[i]);
   }
 }
 

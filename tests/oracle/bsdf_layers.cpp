@@ -107,6 +107,8 @@ public:
                        meanBelow[k] * mean_;
     }
     buildNarrow(alphaBelow);
+    for (int k = 0; k < 2; ++k)
+      meanThrough_[k] = cosineMean([&](double mu) { return directionalAlbedo(mu, alphaBelow)[k] * through(mu)[k]; });
   }
 
   [[nodiscard]] double albedo(double mu) const {
@@ -116,6 +118,10 @@ public:
   }
   [[nodiscard]] double scale(double mu) const { return interpolate(sheenScale_, mu); }
   [[nodiscard]] double narrow(double mu) const { return interpolate(narrow_, mu); }
+  /// Of what facets reflect by Schlick's weights 1 - (1-c)^5 and (1-c)^5, the shares that leave the layer.
+  [[nodiscard]] glm::dvec2 through(double mu) const { return {interpolate(normal_, mu), interpolate(grazing_, mu)}; }
+  /// Cosine-weighted means of both albedos times that.
+  [[nodiscard]] const glm::dvec2& meanThrough() const { return meanThrough_; }
   [[nodiscard]] double mean() const { return mean_; }
   [[nodiscard]] const glm::dvec2& covariance() const { return covariance_; }
 
@@ -135,6 +141,7 @@ private:
   struct Ray {
     double mu;
     double share;
+    double grazing; ///< (1-c)^5
   };
 
   // g with g(mu) times the mean of g over what a white microfacet base does with light of mu = 1 - albedo(mu).
@@ -145,6 +152,7 @@ private:
       passed[static_cast<size_t>(i)] = std::max(1 - albedo(nodeMu(i)), 0.0);
       narrow_[static_cast<size_t>(i)] = std::sqrt(passed[static_cast<size_t>(i)]);
     }
+    normal_ = grazing_ = passed;
     if (alpha == 0) return;
     std::vector<std::vector<Ray>> rays(kNodes);
     const int side = 32;
@@ -158,7 +166,8 @@ private:
           const glm::dvec3 wi = 2 * glm::dot(wo, wm) * wm - wo;
           if (wi.z <= 0) continue;
           const double weight = ggxG2(wo, wi, glm::dvec2(alpha)) / ggxG1(wo, glm::dvec2(alpha));
-          rays[static_cast<size_t>(n)].push_back({wi.z, 2 * t * weight / (side * side)});
+          rays[static_cast<size_t>(n)].push_back(
+              {wi.z, 2 * t * weight / (side * side), std::pow(1 - glm::dot(wo, wm), 5)});
         }
       }
     }
@@ -179,6 +188,16 @@ private:
       }
       narrow_ = next;
     }
+    for (size_t n = 0; n < kNodes; ++n) {
+      glm::dvec2 all(0), leaving(0);
+      for (const Ray& ray : rays[n]) {
+        const glm::dvec2 weights = ray.share * glm::dvec2(1 - ray.grazing, ray.grazing);
+        all += weights;
+        leaving += weights * interpolate(narrow_, ray.mu);
+      }
+      normal_[n] = all.x > 1e-9 ? narrow_[n] * leaving.x / all.x : passed[n];
+      grazing_[n] = all.y > 1e-9 ? narrow_[n] * leaving.y / all.y : passed[n];
+    }
   }
 
   Kind kind_;
@@ -188,6 +207,9 @@ private:
   std::vector<double> sheenScale_;
   std::vector<double> sheenAlbedo_;
   std::vector<double> narrow_;
+  std::vector<double> normal_;
+  std::vector<double> grazing_;
+  glm::dvec2 meanThrough_{0};
 };
 
 class CoatedSheen {
@@ -265,6 +287,24 @@ LayeredSurface::Probabilities LayeredSurface::probabilities(const glm::dvec3& wo
   return {coatShare > 0 ? coatShare / (coatShare + below) : 0, sheenShare > 0 ? sheenShare / below : 0};
 }
 
+// The layer reflects amount E; the coat's facets f0 A + f90 B and what scatters between them, of which a share leaves
+// the layer; the diffuse lobe gives back the rest, by U(wo) U(wi) / mean U in place of the same without a layer.
+double LayeredSurface::broadThrough(const LayerCoupling& layer, double amount, double muO, double muI) const {
+  const double f0 = base_.dielectricF0, f90 = base_.dielectricF90, multiple = coatMultipleReflectance(base_);
+  const auto left = [&](double reflected, const glm::dvec2& albedo, const glm::dvec2& through, double covered) {
+    const double bare = f0 * albedo.x + f90 * albedo.y + multiple * (1 - albedo.x - albedo.y);
+    const double under = f0 * through.x + f90 * through.y + multiple * (1 - reflected - through.x - through.y);
+    return 1 - covered * reflected - std::lerp(bare, under, covered);
+  };
+  const auto ratio = [&](double mu) {
+    const glm::dvec2 albedo = directionalAlbedo(mu, baseAlpha(base_));
+    const glm::dvec2 through = albedo * layer.through(mu);
+    return left(layer.albedo(mu), albedo, through, amount) / left(layer.albedo(mu), albedo, through, 0);
+  };
+  const double mean = left(layer.mean(), meanAlbedo(baseAlpha(base_)), layer.meanThrough(), amount);
+  return ratio(muO) * ratio(muI) * meanCoatTransmission(base_) / mean;
+}
+
 // Both layers lose c E_coat + a (E_sheen - c X), X what the coat takes of the sheen's light; the diffuse lobe gives
 // back the rest, U, by U(wo) U(wi) over the mean of U times what the base's own coat passes.
 double LayeredSurface::broadThroughBoth(const glm::dvec3& wo, const glm::dvec3& wi) const {
@@ -286,12 +326,8 @@ double LayeredSurface::broadThroughBoth(const glm::dvec3& wo, const glm::dvec3& 
 }
 
 LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  const double passedBelow = meanCoatTransmission(base_);
   const auto through = [&](const LayerCoupling& layer, double amount, double muO, double muI) {
-    const double covariance = base_.dielectricF0 * layer.covariance().x + base_.dielectricF90 * layer.covariance().y;
-    const double mean = 1 - layer.mean() + covariance / passedBelow;
-    return Passage{mixed(amount, layer.narrow(muO) * layer.narrow(muI)),
-                   mixed(amount, (1 - layer.albedo(muO)) * (1 - layer.albedo(muI)) / mean)};
+    return Passage{mixed(amount, layer.narrow(muO) * layer.narrow(muI)), broadThrough(layer, amount, muO, muI)};
   };
   Passage result;
   if (coatCoupling_) {
@@ -301,6 +337,7 @@ LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm:
   if (sheenCoupling_) {
     const Passage sheen = through(*sheenCoupling_, largest(sheen_.color), wo.z, std::abs(wi.z));
     result.narrow *= sheen.narrow;
+    if (coatCoupling_) result.narrow *= 1 - 0.01 * coat_.amount * largest(sheen_.color);
     result.broad = coatCoupling_ ? broadThroughBoth(wo, wi) : sheen.broad;
   }
   return result;

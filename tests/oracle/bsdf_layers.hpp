@@ -52,6 +52,7 @@ private:
 
   [[nodiscard]] Probabilities probabilities(const glm::dvec3& wo) const;
   [[nodiscard]] Passage passage(const glm::dvec3& wo, const glm::dvec3& wi) const;
+  [[nodiscard]] double broadThrough(const LayerCoupling& layer, double amount, double muO, double muI) const;
   [[nodiscard]] double broadThroughBoth(const glm::dvec3& wo, const glm::dvec3& wi) const;
 
   MetallicRoughness base_;

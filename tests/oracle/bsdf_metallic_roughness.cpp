@@ -36,8 +36,7 @@ glm::dvec3 multipleReflectance(const MetallicRoughness& m, const glm::dvec3& f0,
 
 // What the coat over the diffuse lobe reflects, by (A, B) in one direction or their mean.
 double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
-  const double multiple = multipleReflectance(m, glm::dvec3(m.dielectricF0), glm::dvec3(m.dielectricF90)).x;
-  return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost(m, albedo);
+  return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + coatMultipleReflectance(m) * lost(m, albedo);
 }
 
 // What the coat passes in one direction; of a film no more than its brightest channel leaves.
@@ -142,18 +141,20 @@ Choice lobeChoice(const MetallicRoughness& m, double muO) {
   return sum > 0 ? Choice{facets / sum, behind / sum} : Choice{};
 }
 
-// The lobes of multiple scattering, without the cosine; of both sides.
-glm::dvec3 multipleScattering(const MetallicRoughness& m, double muO, double muI, bool behind) {
-  glm::dvec3 f(0);
-  if (!behind && !isMirror(m)) {
-    const double alpha = modelAlpha(m);
-    const double both = lost(m, directionalAlbedo(muO, alpha)) * lost(m, directionalAlbedo(muI, alpha));
-    if (both > 0) f += opaqueMultiple(m) * (both / (pi * lost(m, meanAlbedo(alpha))));
-  }
+// The lobe of scattering between opaque facets, without the cosine.
+glm::dvec3 opaqueMultipleLobe(const MetallicRoughness& m, double muO, double muI) {
+  if (isMirror(m)) return glm::dvec3(0);
+  const double alpha = modelAlpha(m);
+  const double both = lost(m, directionalAlbedo(muO, alpha)) * lost(m, directionalAlbedo(muI, alpha));
+  return both > 0 ? opaqueMultiple(m) * (both / (pi * lost(m, meanAlbedo(alpha)))) : glm::dvec3(0);
+}
+
+// The lobes of scattering between facets of glass, without the cosine; of both sides.
+glm::dvec3 glassMultipleLobe(const MetallicRoughness& m, double muO, double muI, bool behind) {
   const GlassMultiple glass = glassMultiple(m, muO);
-  if (glassShare(m) == 0 || glass.lossInFront == 0) return f;
+  if (glassShare(m) == 0 || glass.lossInFront == 0) return glm::dvec3(0);
   const double both = glass.lossInFront * glassLossAt(m, muI, behind);
-  if (!behind) return f + glassShare(m) * (1 - glass.transmitted) * both / (pi * glass.meanInFront);
+  if (!behind) return glm::dvec3(glassShare(m) * (1 - glass.transmitted) * both / (pi * glass.meanInFront));
   const double toOuter = m.thinWalled ? 1 : m.outerIor * m.outerIor / (m.innerIor * m.innerIor); // of radiance
   return glassShare(m) * m.baseColor * glass.transmitted * both / (pi * glass.meanBehind) * toOuter;
 }
@@ -320,10 +321,11 @@ glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const
   if (wiLocal.z < 0) {
     glm::dvec3 f = diffuse(m, woLocal.z, -wiLocal.z, true);
     if (m.transmission > 0 && !transmitsDelta(m))
-      f += transmittedByFacets(m, woLocal, wiLocal).f + multipleScattering(m, woLocal.z, -wiLocal.z, true);
+      f += transmittedByFacets(m, woLocal, wiLocal).f + glassMultipleLobe(m, woLocal.z, -wiLocal.z, true);
     return f * -wiLocal.z;
   }
-  glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z, false) + multipleScattering(m, woLocal.z, wiLocal.z, false);
+  glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z, false) + opaqueMultipleLobe(m, woLocal.z, wiLocal.z) +
+                 glassMultipleLobe(m, woLocal.z, wiLocal.z, false);
   if (!isMirror(m)) {
     const glm::dvec3 wm = glm::normalize(woLocal + wiLocal);
     const glm::dvec2 alpha(m.width);
@@ -337,7 +339,11 @@ glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, co
   if (woLocal.z <= 0 || wiLocal.z == 0) return glm::dvec3(0);
   const bool behind = wiLocal.z < 0;
   const double muI = std::abs(wiLocal.z);
-  return (diffuse(m, woLocal.z, muI, behind) + multipleScattering(m, woLocal.z, muI, behind)) * muI;
+  return (diffuse(m, woLocal.z, muI, behind) + glassMultipleLobe(m, woLocal.z, muI, behind)) * muI;
+}
+
+double coatMultipleReflectance(const MetallicRoughness& m) {
+  return multipleReflectance(m, glm::dvec3(m.dielectricF0), glm::dvec3(m.dielectricF90)).x;
 }
 
 double meanCoatTransmission(const MetallicRoughness& m) {

@@ -70,8 +70,11 @@ struct BsdfSample {
 /// f |cos wi| of the continuous lobes for radiance, 0 unless wo lies above the surface; wi.z < 0 is transmission.
 [[nodiscard]] glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
 
-/// The part of it of the lobes that follow the cosine: the diffuse one and multiple scattering.
+/// The part of it of the diffuse lobe and of scattering between facets of glass.
 [[nodiscard]] glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);
+
+/// Reflectance of scattering between the facets of the dielectric coat over the diffuse lobe.
+[[nodiscard]] double coatMultipleReflectance(const MetallicRoughness& m);
 
 /// Mean share of light that passes the dielectric coat over the diffuse lobe.
 [[nodiscard]] double meanCoatTransmission(const MetallicRoughness& m);

@@ -64,8 +64,14 @@ double layerRow(uint32_t r) { return r / double(gpu::kLayerRoughnessCount - 1); 
 
 // ---- A white microfacet base: where it sends light, by cosines alone. ----
 
-/// Row c: the share of light of node c that node k receives. Rows sum to 1.
+/// Row c: the share of light of node c that node k receives.
 using Transport = std::array<Row, kMuCount>;
+
+struct WhiteBase {
+  Transport all;     ///< rows sum to 1
+  Transport single;  ///< by one reflection at a facet
+  Transport grazing; ///< the part of that which Schlick's approximation weighs by f90
+};
 
 void spread(Row& shares, double mu, double weight) {
   const double position = std::sqrt(std::clamp(mu, 0.0, 1.0)) * (kMuCount - 1);
@@ -75,25 +81,28 @@ void spread(Row& shares, double mu, double weight) {
 }
 
 /// One row by visible normals, as in ggx_albedo.cpp.
-Row reflectedShares(const Facets& facets, double mu) {
-  Row shares{};
+void addReflectedShares(const Facets& facets, double mu, Row& shares, Row& grazing) {
   const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
   const double lengthO = facets.projectedLength(wo);
   forVisibleNormals(facets, wo, {32, 16, true}, [&](const glm::dvec3& wm, double cosine, double weight) {
     const glm::dvec3 wi = 2 * cosine * wm - wo;
-    if (wi.z > 0) spread(shares, wi.z, weight * facets.passage(wo, lengthO, wi));
+    if (wi.z <= 0) return;
+    const double share = weight * facets.passage(wo, lengthO, wi);
+    spread(shares, wi.z, share);
+    spread(grazing, wi.z, share * std::pow(1 - cosine, 5));
   });
-  return shares;
 }
 
 /// What single reflection loses returns by the cosine and its own loss, as in Kulla and Conty 2017, "Revisiting
 /// Physically Based Shading at Imageworks".
-Transport whiteTransport(const FacetModel& model, double roughness) {
+WhiteBase whiteBase(const FacetModel& model, double roughness) {
   const Facets facets(model, glm::dvec2(roughness * roughness));
-  Transport transport;
+  WhiteBase base{};
+  Transport& transport = base.all;
   Row lost{};
   for (uint32_t c = 0; c < kMuCount; ++c) {
-    transport[c] = reflectedShares(facets, nodeRoot(c) * nodeRoot(c));
+    addReflectedShares(facets, nodeRoot(c) * nodeRoot(c), base.single[c], base.grazing[c]);
+    transport[c] = base.single[c];
     double sum = 0;
     for (const double share : transport[c]) sum += share;
     lost[c] = std::max(1 - sum, 0.0);
@@ -114,7 +123,7 @@ Transport whiteTransport(const FacetModel& model, double roughness) {
     for (uint32_t k = 0; k < kMuCount; ++k) sum += transport[c][k] += total > 0 ? lost[c] * returned[k] / total : 0;
     for (double& share : transport[c]) share /= sum;
   }
-  return transport;
+  return base;
 }
 
 /// The function g with g(mu) * (mean of g where the base sends light of mu) = passed(mu), by fixed-point iteration of
@@ -135,6 +144,27 @@ Row symmetricScaling(const Transport& transport, const Row& passed) {
   return g;
 }
 
+double received(const Row& shares, const Row& g) {
+  double sum = 0;
+  for (uint32_t k = 0; k < kMuCount; ++k) sum += shares[k] * g[k];
+  return sum;
+}
+
+/// The shares of the facets' albedo, by Schlick's weights A and B, that leave a layer of coupling g.
+std::array<Row, 2> leavingShares(const WhiteBase& base, const Row& g) {
+  Row one;
+  one.fill(1);
+  std::array<Row, 2> through;
+  for (uint32_t c = 0; c < kMuCount; ++c) {
+    const double grazing = received(base.grazing[c], one), normal = received(base.single[c], one) - grazing;
+    const double grazingThrough = received(base.grazing[c], g);
+    const double normalThrough = received(base.single[c], g) - grazingThrough;
+    through[0][c] = g[c] * (normal > 1e-9 ? normalThrough / normal : grazingThrough / grazing);
+    through[1][c] = g[c] * (grazing > 1e-9 ? grazingThrough / grazing : normalThrough / normal);
+  }
+  return through;
+}
+
 // ---- Layers ----
 
 struct LayerAlbedo {
@@ -145,8 +175,8 @@ struct LayerAlbedo {
 /// @param layerAlbedo of a row
 std::vector<float> computeTable(const FacetModel& model, const std::function<LayerAlbedo(uint32_t)>& layerAlbedo) {
   std::vector<float> table(gpu::kLayerTableSize);
-  std::array<Transport, gpu::kLayerBaseCount> transports;
-  for (uint32_t b = 1; b < gpu::kLayerBaseCount; ++b) transports[b] = whiteTransport(model, baseRoughness(b));
+  std::vector<WhiteBase> bases(gpu::kLayerBaseCount);
+  for (uint32_t b = 1; b < gpu::kLayerBaseCount; ++b) bases[b] = whiteBase(model, baseRoughness(b));
   for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) {
     const LayerAlbedo layer = layerAlbedo(r);
     std::copy(layer.albedo.begin(), layer.albedo.end(), &table[gpu::kLayerAlbedo + r * kMuCount]);
@@ -163,12 +193,19 @@ std::vector<float> computeTable(const FacetModel& model, const std::function<Lay
             static_cast<float>(meanOfProduct(ggx[i], layer.albedo) - mean(ggx[i]) * layerMean);
       }
       Row g;
+      std::array<Row, 2> through{passed, passed};
       if (b > 0) {
-        g = symmetricScaling(transports[b], passed);
+        g = symmetricScaling(bases[b].all, passed);
+        through = leavingShares(bases[b], g);
       } else { // a mirror sends light of mu to mu
         std::transform(passed.begin(), passed.end(), g.begin(), [](double share) { return std::sqrt(share); });
       }
       std::copy(g.begin(), g.end(), &table[gpu::kLayerNarrow + cell * kMuCount]);
+      for (uint32_t i = 0; i < 2; ++i) {
+        std::copy(through[i].begin(), through[i].end(),
+                  &table[gpu::kLayerThrough + i * gpu::kLayerThroughStride + cell * kMuCount]);
+        table[gpu::kLayerThroughMean + 2 * cell + i] = static_cast<float>(meanOfProduct(ggx[i], through[i]));
+      }
     }
   }
   return table;
