@@ -5,8 +5,8 @@
 namespace isophote::cli {
 namespace {
 
-/// Inner nodes a triangle: a binary tree over leaves of about two.
-constexpr double kNodesPerTriangle = 0.5;
+/// Nodes of up to eight children a triangle.
+constexpr double kNodesPerTriangle = 0.15;
 
 uint64_t attributeBytes(const Primitive& primitive) {
   uint64_t bytes = primitive.indices.size() * sizeof(uint32_t);

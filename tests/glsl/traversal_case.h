@@ -39,6 +39,7 @@ struct StepResult {
 
 // What a ray cost, first for its closest hit, then for the question whether it is occluded.
 struct StepCountResult {
+  uint turns[2]; // of the loop
   uint nodes[2];
   uint triangles[2];
   uint instances[2];

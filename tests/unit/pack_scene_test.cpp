@@ -249,6 +249,20 @@ TEST(PackScene, InstanceBoxesHoldTheirTriangles) {
   EXPECT_EQ(boxes, 50u);
 }
 
+TEST(PackScene, LightBoundsFollowTheirInstances) {
+  Scene scene = sceneOf({square()}, 40);
+  scene.materials[0].emissive = glm::vec3(1);
+  for (uint32_t i = 0; i < 40; ++i) scene.instances[i].worldFromObject = placedAt({3.0 * i, 7, -5});
+  const PackedScene packed = packScene(scene);
+  ASSERT_FALSE(packed.lightTree.empty());
+  const gpu::LightTreeNode& root = packed.lightTree[0];
+  const glm::dvec3 center = glm::dvec3(root.center) / static_cast<double>(packed.lightTreeScale) + packed.worldOrigin;
+  EXPECT_NEAR(center.x, 59, 0.01); // squares of size 1 from x = 0 to 117
+  EXPECT_NEAR(center.y, 7.5, 0.01);
+  EXPECT_NEAR(center.z, -5, 0.01);
+  EXPECT_NEAR(root.extent.x / packed.lightTreeScale, 59, 0.01);
+}
+
 TEST(PackScene, WorldOriginMovesOnlyWhereTheSceneIsFarAway) {
   Scene scene = sceneOf({square()});
   const double radius = std::sqrt(0.5);
