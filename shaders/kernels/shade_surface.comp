@@ -34,7 +34,7 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
   if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
-  const bool glass = transmits(material.bsdf);
+  const bool glass = isGlass(material.bsdf);
   if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
@@ -92,7 +92,7 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
   if (kHasTransmission) power *= etaScaleBehind(slot, bsdf.eta);
   if (!survivesRoulette(power, choice.y, path)) return false;
   path.pdfSolidAngle = bsdf.delta ? 0.0 : bsdf.pdfSolidAngle;
-  followGlass(slot, transmits(material.bsdf), bsdf);
+  followGlass(slot, isGlass(material.bsdf), bsdf);
   if (kHasVolumes) {
     MediaRef(pc.media).items[slot].travelled = 0.0;
     if (bsdf.wiLocal.z < 0.0) MediaRef(pc.media).items[slot].path = crossing.across;

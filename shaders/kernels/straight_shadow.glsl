@@ -8,6 +8,9 @@
 #include "kernels/mis.glsl"
 #include "kernels/wavefront.glsl"
 
+/// Whether shadow rays may cross the surface.
+bool isGlass(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
+
 /// Keeps the weight in a shadow ray's contribution: behind glass no BSDF sample shares the light.
 ///
 /// @param weight 0: glass stops the ray
