@@ -34,11 +34,11 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
   if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasTransmission && wiLocal.z < 0.0)) return;
-  const bool glass = isGlass(material.bsdf);
-  if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
+  const bool glass = isGlass(material.bsdf);
+  if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
 
@@ -125,6 +125,14 @@ MediumCrossing crossSurface(const SceneRef scene, const SurfaceHit surface, cons
   return crossBoundary(scene, here, surface.material, surface.frontFace);
 }
 
+// Index behind the surface over that in front: of a boundary those of the two media, else the material's own behind.
+float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing, const uint channel) {
+  const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], channel);
+  if (ior < 1.0) return ior;
+  return isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing, channel)
+                                                   : ior / mediumIor(scene, crossing.before, channel);
+}
+
 // Sends the path straight on, where the surface is a boundary that does nothing.
 bool passesInvisibly(const SceneRef scene, const SurfaceHit surface, const RayState ray, const MediumCrossing crossing,
                      const uint slot) {
@@ -162,7 +170,7 @@ void main() {
   const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
   vec3 kept;
   const uint channel = dispersedChannel(scene, surface, key, slot, kept);
-  const float eta = kHasVolumes ? etaAt(scene, surface.material, crossing, channel) : etaInAir(scene, surface, channel);
+  const float eta = kHasVolumes ? etaAt(scene, surface, crossing, channel) : etaInAir(scene, surface, channel);
   SurfaceMaterial material = materialAt(scene, surface, eta, channel);
   const vec3 ns = shadingNormal(scene, surface, wo);
   if (path.depth == 0u) {

@@ -7,6 +7,7 @@
 #include "bsdf/material.glsl"
 #include "kernels/mis.glsl"
 #include "kernels/wavefront.glsl"
+#include "medium/medium_stack.glsl"
 
 /// Whether shadow rays may cross the surface.
 bool isGlass(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
@@ -49,9 +50,12 @@ float foundWeight(const uint slot, const float pdfBsdf, const float pdfLight) {
 ///
 /// Both sides reflect by the angle outside the glass: a ray that goes straight into a plate leaves it as it entered.
 /// @param wo  unit, where the ray comes from
-/// @param eta index behind the surface over the index in front of it
-vec3 straightTransmittance(const SceneRef scene, const SurfaceHit surface, const vec3 wo, const float eta) {
-  if (eta <= 0.0) return vec3(0.0);
+vec3 straightTransmittance(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing,
+                           const vec3 wo) {
+  const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], 1u);
+  if (ior < 1.0) return vec3(0.0); // it stands for infinity
+  const float eta = isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing, 1u)
+                                                              : ior / mediumIor(scene, crossing.before, 1u);
   const MetallicRoughness base = materialAt(scene, surface, max(eta, 1.0 / eta), 1u).bsdf.base;
   return scatterAtFacet(base, dot(shadingNormal(scene, surface, wo), wo)).transmitted;
 }

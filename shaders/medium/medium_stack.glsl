@@ -101,14 +101,6 @@ float etaAcross(const SceneRef scene, const MediumCrossing crossing, const uint 
   return mediumIor(scene, crossing.beyond, channel) / mediumIor(scene, crossing.before, channel);
 }
 
-/// Index behind a surface over that in front: of a boundary those of the two media, else the material's own behind.
-float etaAt(const SceneRef scene, const uint material, const MediumCrossing crossing, const uint channel) {
-  const float ior = materialIor(MaterialRef(scene.view.materials).items[material], channel);
-  if (ior < 1.0) return ior;
-  const bool boundary = (MaterialRef(scene.view.materials).items[material].flags & kMaterialVolume) != 0u;
-  return boundary ? etaAcross(scene, crossing, channel) : ior / mediumIor(scene, crossing.before, channel);
-}
-
 /// Whether a path goes straight on through a boundary, unchanged: it lies inside another medium, or it is clear and
 /// the indices are equal.
 bool isInvisible(const SceneRef scene, const MediumCrossing crossing, const uint material) {
