@@ -1,6 +1,6 @@
-// The setting shadow-transmission=straight: shadow rays cross glass unbent, dimmed by its color, by reflection and by its
-// medium. What paths would find behind glass is then left out, so that no light counts twice. docs/bsdf.md, "Shadow rays
-// through glass".
+// The setting shadow-transmission=straight: shadow rays cross glass unbent, dimmed by its color, by reflection and by
+// its medium. What paths would find behind glass is then left out, so that no light counts twice. docs/bsdf.md, "Shadow
+// rays through glass".
 #ifndef ISOPHOTE_KERNELS_STRAIGHT_SHADOW_GLSL
 #define ISOPHOTE_KERNELS_STRAIGHT_SHADOW_GLSL
 
