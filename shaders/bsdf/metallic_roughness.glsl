@@ -504,7 +504,6 @@ BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, 
 
 // Of Lambert lobes alone: the probability of sampling the one on the other side.
 float lambertBehindProbability(const MetallicRoughness m) {
-  if (!kHasDiffuseTransmission) return 0.0;
   const float behind = m.diffuse * crossingShare(m.behind) * luminance(m.behind.color);
   const float above = m.diffuse * (1.0 - crossingShare(m.behind)) * luminance(m.baseColor);
   return behind > 0.0 ? behind / (above + behind) : 0.0;
@@ -521,6 +520,7 @@ BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const ve
     return evaluateReflection(scene, m, shares, woLocal, wiLocal);
   }
   const float density = kInvPi * abs(wiLocal.z);
+  if (!kHasDiffuseTransmission) return BaseValue(vec3(0.0), m.baseColor * (m.diffuse * density), density);
   const float behind = lambertBehindProbability(m);
   if (transmitted) {
     return BaseValue(vec3(0.0), crossingReflectance(m.behind) * (m.diffuse * density), behind * density);
@@ -567,7 +567,7 @@ BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec
   if (woLocal.z < kMinCosine) return absorbed();
   if (!kHasSpecular) {
     vec3 wi = sampleCosineHemisphere(u);
-    const bool crosses = uLobe < lambertBehindProbability(m);
+    const bool crosses = kHasDiffuseTransmission && uLobe < lambertBehindProbability(m);
     if (crosses) wi.z = -wi.z;
     return finishSample(wi, evaluateBase(scene, m, woLocal, wi), crosses ? m.behind.eta : 1.0);
   }

@@ -16,12 +16,12 @@ struct SurfaceBsdf {
   bool insideSolid; // wo is in the interior: the layers are on the other side
 };
 
-/// Whether facets transmit.
-bool hasGlass(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
+/// Whether facets transmit, so that shadow rays may cross.
+bool isGlass(const SurfaceBsdf bsdf) { return kHasTransmission && bsdf.base.glass > 0.0; }
 
 /// Whether light passes to the other side.
 bool transmits(const SurfaceBsdf bsdf) {
-  return hasGlass(bsdf) || (kHasDiffuseTransmission && bsdf.base.behind.share > 0.0);
+  return isGlass(bsdf) || (kHasDiffuseTransmission && bsdf.base.behind.share > 0.0);
 }
 
 const bool kHasLayers = kHasClearcoat || kHasSheen;

@@ -43,7 +43,7 @@ vec3 shadowTransmittance(const SceneRef scene, const ShadowState shadow, const u
       if (!kStraightShadows) return vec3(0.0);
       const float weight = StraightRef(pc.straight).items[slot].lightWeight;
       if (weight == 0.0) return vec3(0.0);
-      left *= straightTransmittance(scene, surface, -normalize(direction), etaAt(scene, surface.material, surface.frontFace, crossing, 1u));
+      left *= straightTransmittance(scene, surface, crossing, -normalize(direction));
       if (all(equal(left, vec3(0.0)))) return vec3(0.0);
       if (!behindGlass) left /= weight;
       behindGlass = true;

@@ -34,11 +34,11 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
   if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasFarSide && wiLocal.z < 0.0)) return;
-  const bool glass = hasGlass(material.bsdf);
-  if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
+  const bool glass = isGlass(material.bsdf);
+  if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
   if (all(equal(contribution, vec3(0.0)))) return;
 
@@ -92,7 +92,7 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
   if (kHasTransmission) power *= etaScaleBehind(slot, bsdf.eta);
   if (!survivesRoulette(power, choice.y, path)) return false;
   path.pdfSolidAngle = bsdf.delta ? 0.0 : bsdf.pdfSolidAngle;
-  followGlass(slot, transmits(material.bsdf), bsdf);
+  followGlass(slot, isGlass(material.bsdf), bsdf);
   if (kHasVolumes) {
     MediaRef(pc.media).items[slot].travelled = 0.0;
     if (bsdf.wiLocal.z < 0.0) MediaRef(pc.media).items[slot].path = crossing.across;
@@ -123,6 +123,16 @@ MediumCrossing crossSurface(const SceneRef scene, const SurfaceHit surface, cons
   if (!isVolumeBoundary(scene, surface.material)) return noCrossing(scene, here);
   if (surface.frontFace && isFull(here)) countStatus(kStatusMediumOverflow);
   return crossBoundary(scene, here, surface.material, surface.frontFace);
+}
+
+// Index behind the surface over that in front: of a boundary those of the two media, else the material's own behind.
+float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing, const uint channel) {
+  const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], channel);
+  if (ior < 1.0) return ior;
+  const bool boundary = isVolumeBoundary(scene, surface.material);
+  if (boundary && refracts(scene, surface.material)) return etaAcross(scene, crossing, channel);
+  const uint outside = boundary && !surface.frontFace ? crossing.beyond : crossing.before;
+  return ior / mediumIor(scene, outside, channel);
 }
 
 // Sends the path straight on, where the surface is a boundary that does nothing.
@@ -164,7 +174,7 @@ void main() {
   const uint channel = dispersedChannel(scene, surface, key, slot, kept);
   float eta = 1.0;
   if (kHasVolumes) {
-    eta = etaAt(scene, surface.material, surface.frontFace, crossing, channel);
+    eta = etaAt(scene, surface, crossing, channel);
   } else if (kHasSpecular) {
     eta = etaInAir(scene, surface, channel);
   }

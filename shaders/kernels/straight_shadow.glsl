@@ -1,12 +1,13 @@
-// The setting shadow-transmission=straight: shadow rays cross glass unbent, dimmed by its color, by reflection and by its
-// medium. What paths would find behind glass is then left out, so that no light counts twice. docs/bsdf.md, "Shadow rays
-// through glass".
+// The setting shadow-transmission=straight: shadow rays cross glass unbent, dimmed by its color, by reflection and by
+// its medium. What paths would find behind glass is then left out, so that no light counts twice. docs/bsdf.md, "Shadow
+// rays through glass".
 #ifndef ISOPHOTE_KERNELS_STRAIGHT_SHADOW_GLSL
 #define ISOPHOTE_KERNELS_STRAIGHT_SHADOW_GLSL
 
 #include "bsdf/material.glsl"
 #include "kernels/mis.glsl"
 #include "kernels/wavefront.glsl"
+#include "medium/medium_stack.glsl"
 
 /// Keeps the weight in a shadow ray's contribution: behind glass no BSDF sample shares the light.
 ///
@@ -46,9 +47,12 @@ float foundWeight(const uint slot, const float pdfBsdf, const float pdfLight) {
 ///
 /// Both sides reflect by the angle outside the glass: a ray that goes straight into a plate leaves it as it entered.
 /// @param wo  unit, where the ray comes from
-/// @param eta index behind the surface over the index in front of it
-vec3 straightTransmittance(const SceneRef scene, const SurfaceHit surface, const vec3 wo, const float eta) {
-  if (eta <= 0.0) return vec3(0.0);
+vec3 straightTransmittance(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing,
+                           const vec3 wo) {
+  const float ior = materialIor(MaterialRef(scene.view.materials).items[surface.material], 1u);
+  if (ior < 1.0) return vec3(0.0); // it stands for infinity
+  const float eta = isVolumeBoundary(scene, surface.material) ? etaAcross(scene, crossing, 1u)
+                                                              : ior / mediumIor(scene, crossing.before, 1u);
   const MetallicRoughness base = materialAt(scene, surface, max(eta, 1.0 / eta), 1u).bsdf.base;
   return scatterAtFacet(base, dot(shadingNormal(scene, surface, wo), wo)).transmitted;
 }

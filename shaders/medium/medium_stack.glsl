@@ -107,17 +107,6 @@ float etaAcross(const SceneRef scene, const MediumCrossing crossing, const uint 
   return mediumIor(scene, crossing.beyond, channel) / mediumIor(scene, crossing.before, channel);
 }
 
-/// Index behind a surface over that in front: of a boundary those of the two media, else the material's own behind.
-float etaAt(const SceneRef scene, const uint material, const bool frontFace, const MediumCrossing crossing,
-            const uint channel) {
-  const float ior = materialIor(MaterialRef(scene.view.materials).items[material], channel);
-  if (ior < 1.0) return ior;
-  const bool boundary = (MaterialRef(scene.view.materials).items[material].flags & kMaterialVolume) != 0u;
-  if (boundary && refracts(scene, material)) return etaAcross(scene, crossing, channel);
-  const uint outside = boundary && !frontFace ? crossing.beyond : crossing.before;
-  return ior / mediumIor(scene, outside, channel);
-}
-
 /// Whether a path goes straight on through a boundary, unchanged: it lies inside another medium, or it is clear and
 /// the indices are equal.
 bool isInvisible(const SceneRef scene, const MediumCrossing crossing, const uint material) {

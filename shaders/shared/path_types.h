@@ -68,7 +68,8 @@ struct InteriorState {
 // StraightState.path: whether shadow rays that cross glass unbent have counted the light that a path may still find.
 ISOPHOTE_CONST uint kStraightNone = 0u;    // not since it left the camera, a mirror or glass that reflected it
 ISOPHOTE_CONST uint kStraightSampled = 1u; // its last vertex sent such a ray
-ISOPHOTE_CONST uint kStraightCounted = 2u; // the same, and it has passed nothing but glass since: what it finds is theirs
+ISOPHOTE_CONST uint kStraightCounted =
+    2u; // the same, and it has passed nothing but glass since: what it finds is theirs
 
 // Only where shadow rays cross glass unbent.
 struct StraightState {

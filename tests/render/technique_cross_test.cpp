@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -84,19 +85,22 @@ AnalyticScene halfSky() {
   return {"HalfSky", std::move(scene), sensorAt({0, 0, 0}), 0.5 * 2, 1};
 }
 
-/// A pane of glass before a wide emitter (number 30), at 60 degrees: (1 - R) / (1 + R).
-AnalyticScene pane() {
+/// Panes of glass before a wide emitter (numbers 30 and 31), seen at an angle from their normal.
+AnalyticScene panes(uint32_t count, double degrees, double expected) {
   constexpr double kHalf = 1e3;
   Scene scene;
-  addPrimitive(scene, box({-kHalf, 1, -kHalf}, {kHalf, 2, kHalf}, false, addMaterial(scene, glass(0))));
+  const uint32_t clear = addMaterial(scene, glass(0));
+  for (uint32_t i = 0; i < count; ++i)
+    addPrimitive(scene, box({-kHalf, 2.0 * i + 1, -kHalf}, {kHalf, 2.0 * i + 2, kHalf}, false, clear));
   addPrimitive(scene, quad({-kHalf, 0, kHalf}, {2 * kHalf, 0, 0}, {0, 0, -2 * kHalf},
                            addMaterial(scene, emitter(glm::vec3(1)))));
-  const glm::dvec3 target(0, 2, 0);
-  const glm::dvec3 from(std::sin(kPi / 3), std::cos(kPi / 3), 1e-3);
-  return {"Pane", std::move(scene), orthographicLookAt(target + 3.0 * from, target, 0.5, 0.5), 0.836232};
+  const glm::dvec3 target(0, 2.0 * count, 0);
+  const double angle = degrees * kPi / 180;
+  const glm::dvec3 from(std::sin(angle), std::cos(angle), 1e-3);
+  return {"Pane", std::move(scene), orthographicLookAt(target + 3.0 * from, target, 0.5, 0.5), expected};
 }
 
-/// Twelve lamps of three kinds and a hundred triangles: the sum of their irradiances.
+/// Six points, three directions, three suns and a hundred triangles: the sum of their irradiances.
 AnalyticScene lamps() {
   Scene scene = lambertFloor(glm::vec3(1), 2);
   double irradiance = 0;
@@ -173,7 +177,7 @@ const std::vector<SceneMaker>& sceneMakers() {
        }},
       {"HalfSky", false, halfSky},
       {"MirrorTube", false, platesInMirrorTube},
-      {"Pane", false, pane},
+      {"Pane", false, [] { return panes(1, 60, 0.836232); }},
       {"Sheets", false, blendedSheets},
       {"Lamps", true, lamps},
   };
@@ -315,6 +319,26 @@ TEST(TechniqueCrossModes, Test27TheEmittingPlateInAMirrorTubeIsFiveThirds) {
   tube.camera = lookAt({0.4, 0.6, 1}, {0.5, 0.5, 0}, 0.3);
   tube.radiance = 5.0 / 3;
   expectRadiance(tube, {6, Lights::MisPower, SamplerKind::Sobol, LightSelection::Bvh}, kPowerFloor);
+}
+
+// Numbers 17, 30, 31 and 33 to the 0.3% that the list states; the default tests of the same numbers see 1% to 3%.
+TEST(TechniqueCrossModesSlow, Test17Test30Test31Test33ToTheStatedFloor) {
+  const Crossing usual;
+  for (const auto& [degrees, expected] :
+       {std::pair{0.0, 0.923077}, {45.0, 0.904327}, {60.0, 0.836232}, {80.0, 0.441229}})
+    expectRadiance(panes(1, degrees, expected), usual, kPowerFloor);
+  expectRadiance(panes(10, 0, 0.545455), usual, kPowerFloor);
+
+  AnalyticScene series = furnace();
+  series.maxDepth = 8;
+  series.radiance = 1.99609375;
+  expectRadiance(series, usual, kPowerFloor);
+
+  Scene cube;
+  cube.environment = constantEnvironment(glm::vec3(1));
+  addPrimitive(cube, box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, false, addMaterial(cube, glass(0))));
+  const Camera inside = lookAt({0.1, 0.05, -0.1}, {0.5, 0.07, -0.12}, 0.5);
+  expectRadiance({"InsideGlass", std::move(cube), inside, 2.25}, usual, kPowerFloor);
 }
 
 } // namespace

@@ -75,7 +75,7 @@ private:
       const PackedMesh& mesh = geometry_.meshes[instance.mesh];
       if (mesh.emitters.empty()) continue;
       instance.firstEmitter = static_cast<uint32_t>(packed_.emissiveTriangles.size());
-      const glm::dmat4& worldFromObject = scene_.instances[geometry_.sceneInstances[i]].worldFromObject;
+      const glm::dmat4& worldFromObject(scene_.instances[geometry_.sceneInstances[i]].worldFromObject);
       for (size_t k = 0; k < mesh.emitters.size(); ++k) {
         const MeshEmitter& emitter = mesh.emitters[k];
         packed_.emissiveTriangles.push_back({i, emitter.triangle});

@@ -29,7 +29,7 @@ struct BsdfSample {
 
 const bool kHasFarSide = false;
 
-bool hasGlass(const SurfaceBsdf bsdf) { return false; }
+bool isGlass(const SurfaceBsdf bsdf) { return false; }
 bool transmits(const SurfaceBsdf bsdf) { return false; }
 
 BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
