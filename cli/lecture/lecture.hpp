@@ -12,7 +12,7 @@ struct LectureOptions {
   std::string scene;  ///< assets/lecture.glb, with its variants
   std::string folder; ///< README.md and the pictures go here
   uint32_t width = 72;
-  uint32_t runs = 3; ///< seeds of each picture
+  uint32_t runs = 5; ///< seeds of each picture
   uint32_t referenceSamples = 1024;
 };
 

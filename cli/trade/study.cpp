@@ -116,10 +116,23 @@ private:
     }
   }
 
+  /// So that the planned rounds take `seconds`. A render takes some time whatever its samples; how much, a second probe
+  /// of the exact settings tells, and the others are taken to be alike.
   void chooseSamples(double seconds) {
+    study_.samplesPerRun = kProbeSamples;
+    constexpr uint32_t kMore = 8 * kProbeSamples;
+    const auto result = bench_.render(Settings{}, kProbeSeed, {0, kMore});
+    if (!result) return;
+    const double first = secondsPerSample_[0] * kProbeSamples;
+    const double grown = (result->seconds - first) / (kMore - kProbeSamples) / secondsPerSample_[0];
+    const double share = std::clamp(grown, 0.02, 1.0); // of the first probe's time that more samples multiply
+    double fixed = 0;
     double perSample = 0;
-    for (const size_t i : active()) perSample += secondsPerSample_[i];
-    study_.samplesPerRun = wholeSamples(perSample > 0 ? seconds / kPlannedRounds / perSample : kProbeSamples);
+    for (const size_t i : active()) {
+      fixed += (1 - share) * secondsPerSample_[i] * kProbeSamples;
+      perSample += share * secondsPerSample_[i];
+    }
+    if (perSample > 0) study_.samplesPerRun = wholeSamples((seconds / kPlannedRounds - fixed) / perSample);
   }
 
   void makeReference(double deadline) {
