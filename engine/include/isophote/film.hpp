@@ -24,8 +24,8 @@ struct ErrorEstimate {
 struct FilmOptions {
   uint32_t width = 0; ///< 1 to 65535
   uint32_t height = 0;
-  PixelRect crop;   ///< empty: the full image
-  bool aovs = true; ///< albedo, normal, depth and position of the first hit
+  PixelRect crop;      ///< empty: the full image
+  bool aovs = true;    ///< albedo, normal, depth and position of the first hit
   bool ledger = false; ///< what EstimatorSettings::clamp removes, as the channels clamped.{R,G,B}
 };
 
