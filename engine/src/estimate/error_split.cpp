@@ -24,12 +24,16 @@ std::vector<double> interleaved(const Image& image, const std::string& prefix) {
   return values;
 }
 
-/// Squared standard errors; of pixels that are not trusted those of their widened intervals, where the image has them.
-std::vector<double> variances(const Image& image) {
-  constexpr double kStudent7 = 2.364624251592784; // 95%, seven degrees of freedom: what the layer ci95 is made with
-  const bool intervals = image.find("ci95.R") != nullptr;
-  std::vector<double> values = interleaved(image, intervals ? "ci95." : "stderr.");
-  for (double& value : values) value *= intervals ? value / (kStudent7 * kStudent7) : value;
+/// Squared standard errors; of pixels that are not trusted those of their widened intervals.
+std::vector<double> cautiousVariances(const Image& image) {
+  constexpr double kTrusted = 0.1;
+  constexpr double kWiden = 4.57 / 2.3646; // of the interval of an event seen once, over Student's (pixel_error.cpp)
+  const Channel* trust = image.find("trust.Y");
+  std::vector<double> values = interleaved(image, "stderr.");
+  for (size_t i = 0; i < values.size(); ++i) {
+    const bool trusted = trust == nullptr || double(trust->values[i / 3]) >= kTrusted;
+    values[i] *= values[i] * (trusted ? 1 : kWiden * kWiden);
+  }
   return values;
 }
 
@@ -72,7 +76,7 @@ ErrorSplitter::ErrorSplitter(const Image& reference)
   double luminance = 0;
   for (size_t i = 0; i < reference_.size(); i += 3)
     luminance += 0.2126 * reference_[i] + 0.7152 * reference_[i + 1] + 0.0722 * reference_[i + 2];
-  const std::vector<double> cautious = variances(reference);
+  const std::vector<double> cautious = cautiousVariances(reference);
   const double e = 0.01 * luminance / (static_cast<double>(reference_.size()) / 3);
   for (size_t i = 0; i < reference_.size(); ++i) {
     brightnessReferenceVariance_ += cautious[i];
@@ -87,7 +91,7 @@ void ErrorSplitter::add(const Image& run) {
   if (run.width != width_ || run.height != height_) throw UsageError("a run of another size than the reference");
   const std::vector<double> values = interleaved(run, "");
   const std::vector<double> errors = interleaved(run, "stderr.");
-  const std::vector<double> cautious = variances(run);
+  const std::vector<double> cautious = cautiousVariances(run);
   double noise = 0;
   for (size_t i = 0; i < values.size(); ++i) {
     const double difference = values[i] - reference_[i];
