@@ -12,8 +12,8 @@ struct LectureOptions {
   std::string scene;  ///< assets/lecture.glb, with its variants
   std::string folder; ///< README.md and the pictures go here
   uint32_t width = 72;
-  uint32_t runs = 3; ///< seeds of each picture
-  uint32_t referenceSamples = 1024;
+  uint32_t runs = 5; ///< seeds of each picture
+  uint32_t referenceSamples = 2048;
 };
 
 /// @param progress  told what is being done

@@ -205,9 +205,11 @@ private:
         points.push_back({seconds, errorAfter(study_.tradeOff(ways[w]), seconds)});
       }
       plot.line(points, style, m.configuration.name());
-      plot.mark({m.seconds().value, rootOf(m.split.totalSquare.value)}, style,
-                fmt::format("{}: {} after {}", m.configuration.name(), percent(rootOf(m.split.totalSquare.value)),
-                            timeText(m.seconds().value)));
+      // Of the exact settings' time the share that runs side by side found, as for the lines.
+      const double seconds = study_.exact().seconds().value * priceOf(m, study_.exact()).seconds.value;
+      const double error = rootOf(m.split.totalSquare.value);
+      plot.mark({seconds, error}, style,
+                fmt::format("{}: {} after {}", m.configuration.name(), percent(error), timeText(seconds)));
     }
     return "<div>" + plot.svg() + "</div>\n" + legend(ways);
   }

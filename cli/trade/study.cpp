@@ -116,10 +116,23 @@ private:
     }
   }
 
+  /// So that the planned rounds take `seconds`. A render takes some time whatever its samples; how much, a second probe
+  /// of the exact settings tells, and the others are taken to be alike.
   void chooseSamples(double seconds) {
+    study_.samplesPerRun = kProbeSamples;
+    constexpr uint32_t kMore = 8 * kProbeSamples;
+    const auto result = bench_.render(Settings{}, kProbeSeed, {0, kMore});
+    if (!result) return;
+    const double first = secondsPerSample_[0] * kProbeSamples;
+    const double grown = (result->seconds - first) / (kMore - kProbeSamples) / secondsPerSample_[0];
+    const double share = std::clamp(grown, 0.02, 1.0); // of the first probe's time that more samples multiply
+    double fixed = 0;
     double perSample = 0;
-    for (const size_t i : active()) perSample += secondsPerSample_[i];
-    study_.samplesPerRun = wholeSamples(perSample > 0 ? seconds / kPlannedRounds / perSample : kProbeSamples);
+    for (const size_t i : active()) {
+      fixed += (1 - share) * secondsPerSample_[i] * kProbeSamples;
+      perSample += share * secondsPerSample_[i];
+    }
+    if (perSample > 0) study_.samplesPerRun = wholeSamples((seconds / kPlannedRounds - fixed) / perSample);
   }
 
   void makeReference(double deadline) {
@@ -199,6 +212,7 @@ private:
       const double start = elapsed_();
       if (!measureRound(configurations, fmt::format("one setting at a time, round {}", round + 1))) return;
       roundSeconds = elapsed_() - start;
+      runSeconds_ = roundSeconds / static_cast<double>(configurations.size());
     }
   }
 
@@ -255,10 +269,20 @@ private:
             {.configuration = configuration, .declaredUnbiased = configuration.declaredUnbiased()});
       }
       if (batch.size() == 1) return;
+      if (elapsed_() + batchSeconds(batch.size()) > deadline) {
+        study_.measurements.resize(study_.measurements.size() + 1 - batch.size());
+        return;
+      }
       for (uint32_t round = 0; round < kSearchRounds && (round < kFewestRounds || timeLeft(deadline)); ++round) {
         if (!measureBatch(batch, round)) return;
       }
     }
+  }
+
+  /// What the fewest rounds of so many configurations take, compilation of the new ones included.
+  [[nodiscard]] double batchSeconds(size_t configurations) const {
+    const double compile = bench_.compileSeconds() / static_cast<double>(std::max<size_t>(measuredOnes().size(), 1));
+    return static_cast<double>(configurations) * (compile + kFewestRounds * runSeconds_);
   }
 
   bool measureBatch(const std::vector<size_t>& batch, uint32_t round) {
@@ -313,6 +337,7 @@ private:
   std::optional<ErrorSplitter> splitter_; ///< without runs
   std::vector<double> secondsPerSample_;
   double probeSquare_ = 0; ///< noise of the exact settings after kProbeSamples
+  double runSeconds_ = 0;  ///< of one run with all about it
   uint64_t nextSeed_ = 1;
   uint32_t round_ = 0;
 };

@@ -38,7 +38,11 @@ struct Recommendation {
   ErrorSplit found;
   Interval foundSeconds;
   [[nodiscard]] bool tried() const { return found.runs > 0; }
-  [[nodiscard]] bool confirmed() const { return tried() && found.totalSquare.lower <= forecastError * forecastError; }
+  /// No more than a quarter above the forecast, and not above it beyond doubt.
+  [[nodiscard]] bool confirmed() const {
+    const double forecast = forecastError * forecastError;
+    return tried() && found.totalSquare.lower <= forecast && found.totalSquare.value <= 1.25 * 1.25 * forecast;
+  }
 };
 
 struct StudyPlan {

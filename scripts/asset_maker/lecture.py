@@ -49,8 +49,8 @@ def scene():
     balls = [ball for ball, _ in variants.values()]
     floor = gltf.shape(quad((-3.0, 0.0, 2.0), (3.0, 0.0, 2.0), (3.0, 0.0, -2.0), (-3.0, 0.0, -2.0)))
     wall = gltf.shape(quad((-3.0, 0.0, -2.0), (3.0, 0.0, -2.0), (3.0, 4.0, -2.0), (-3.0, 4.0, -2.0)))
-    gltf.node(_mesh(gltf, "floor", floor, [everything or grey for _, everything in variants.values()]), name="floor")
-    gltf.node(_mesh(gltf, "wall", wall, [everything or red for _, everything in variants.values()]), name="wall")
+    gltf.node(_mesh(gltf, "floor", floor, [grey if everything is None else everything for _, everything in variants.values()]), name="floor")
+    gltf.node(_mesh(gltf, "wall", wall, [red if everything is None else everything for _, everything in variants.values()]), name="wall")
     ball = _mesh(gltf, "ball", gltf.shape(sphere(0.6, 24, 48)), balls)
     for x in (-1.3, 0.0, 1.3):
         gltf.node(ball, (x, 0.6, 0.0), name="ball")

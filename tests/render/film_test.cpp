@@ -113,7 +113,7 @@ TEST(RenderFilm, StandardErrorsTellTheSpreadOfPixelMeans) {
         const double difference = std::abs(means[i] - c.expected);
         outside += difference > kQuantile * errors[i] ? 1.0 / 4096 : 0;
         if (trust[i] > 0.1001f) {
-          ASSERT_NEAR(half[i], kQuantile * errors[i], 1e-4 * half[i]);
+          ASSERT_GE(half[i], (kQuantile - 1e-3) * errors[i]); // wider where skewed
         }
       }
       EXPECT_NEAR(outside, 0.05, kTolerance) << c.scene.name << ", sampler " << static_cast<uint32_t>(sampler);

@@ -15,7 +15,7 @@ struct ErrorSplit {
   uint32_t runs = 0;
   Interval noiseSquare;            ///< of one run; from the replicates of each, its interval from how the runs differ
   Interval biasSquare;             ///< unbiased, so that it may be negative; nothing is known below two runs
-  Interval totalSquare; ///< of one run, noise and bias together; unbiased
+  Interval totalSquare;            ///< of one run, noise and bias together; unbiased
   Interval brightness;             ///< (mean of the runs - mean of the reference) / mean of the reference
   double biasDeviations = 0;       ///< biasSquare over its standard error
   double brightnessDeviations = 0; ///< brightness over its standard error
@@ -26,8 +26,9 @@ struct ErrorSplit {
 /// With D_k the difference of run k to the reference, whose squared standard error is v, E[D_k D_l] = bias^2 + v for k
 /// != l: the mean of those products, less v, estimates the squared bias without bias. Pixels are independent, so the
 /// spread over pixels gives its standard error; it holds the spread of the bias itself too, and is rather too wide. A
-/// few bright pixels that dominate make the normal interval too narrow. The reference's noise is in the weights too: with
-/// v relative and b the mean relative bias that shifts the squared bias by about 4 b v + 6 v^2.
+/// few bright pixels that dominate make the normal interval too narrow. Brightness takes pixels that are not trusted
+/// with their widened error. The reference's noise is in the weights too: with v relative and b the mean relative bias
+/// that shifts the squared bias by about 4 b v + 6 v^2.
 class ErrorSplitter {
 public:
   /// @throws UsageError where the reference has no error bars (R, G, B and stderr.{R,G,B})
@@ -49,13 +50,14 @@ public:
 private:
   uint32_t width_;
   uint32_t height_;
-  std::vector<double> reference_;    ///< three values a pixel
-  std::vector<double> variance_;     ///< of the reference
-  std::vector<double> weight_;       ///< 1 / (r^2 + e^2)
-  std::vector<double> sum_;          ///< of the runs' differences
-  std::vector<double> squares_;      ///< of them
-  std::vector<double> noiseSquares_; ///< one a run
-  double brightnessVariance_ = 0;    ///< sum over runs and values of squared standard errors
+  std::vector<double> reference_;          ///< three values a pixel
+  std::vector<double> variance_;           ///< of the reference
+  std::vector<double> weight_;             ///< 1 / (r^2 + e^2)
+  std::vector<double> sum_;                ///< of the runs' differences
+  std::vector<double> squares_;            ///< of them
+  std::vector<double> noiseSquares_;       ///< one a run
+  double brightnessVariance_ = 0;          ///< sum over runs and values of squared standard errors
+  double brightnessReferenceVariance_ = 0; ///< sum over values
   double referenceSquare_ = 0;
 };
 

@@ -24,6 +24,19 @@ std::vector<double> interleaved(const Image& image, const std::string& prefix) {
   return values;
 }
 
+/// Squared standard errors; of pixels that are not trusted those of their widened intervals.
+std::vector<double> cautiousVariances(const Image& image) {
+  constexpr double kTrusted = 0.1;
+  constexpr double kWiden = 4.57 / 2.3646; // of the interval of an event seen once, over Student's (pixel_error.cpp)
+  const Channel* trust = image.find("trust.Y");
+  std::vector<double> values = interleaved(image, "stderr.");
+  for (size_t i = 0; i < values.size(); ++i) {
+    const bool trusted = trust == nullptr || double(trust->values[i / 3]) >= kTrusted;
+    values[i] *= values[i] * (trusted ? 1 : kWiden * kWiden);
+  }
+  return values;
+}
+
 Image planes(uint32_t width, uint32_t height, const std::vector<double>& values) {
   Image image{.width = width, .height = height};
   for (size_t c = 0; c < 3; ++c) {
@@ -63,8 +76,10 @@ ErrorSplitter::ErrorSplitter(const Image& reference)
   double luminance = 0;
   for (size_t i = 0; i < reference_.size(); i += 3)
     luminance += 0.2126 * reference_[i] + 0.7152 * reference_[i + 1] + 0.0722 * reference_[i + 2];
+  const std::vector<double> cautious = cautiousVariances(reference);
   const double e = 0.01 * luminance / (static_cast<double>(reference_.size()) / 3);
   for (size_t i = 0; i < reference_.size(); ++i) {
+    brightnessReferenceVariance_ += cautious[i];
     variance_[i] *= variance_[i];
     const double scale = reference_[i] * reference_[i] + e * e;
     weight_[i] = scale > 0 ? 1 / scale : 0; // a black image
@@ -76,13 +91,14 @@ void ErrorSplitter::add(const Image& run) {
   if (run.width != width_ || run.height != height_) throw UsageError("a run of another size than the reference");
   const std::vector<double> values = interleaved(run, "");
   const std::vector<double> errors = interleaved(run, "stderr.");
+  const std::vector<double> cautious = cautiousVariances(run);
   double noise = 0;
   for (size_t i = 0; i < values.size(); ++i) {
     const double difference = values[i] - reference_[i];
     sum_[i] += difference;
     squares_[i] += difference * difference;
     noise += weight_[i] * errors[i] * errors[i];
-    brightnessVariance_ += errors[i] * errors[i];
+    brightnessVariance_ += cautious[i];
   }
   noiseSquares_.push_back(noise / static_cast<double>(values.size()));
 }
@@ -97,11 +113,10 @@ ErrorSplit ErrorSplitter::split() const {
 
   double total = 0;
   double difference = 0;
-  double variance = brightnessVariance_ / (runs * runs);
+  const double variance = brightnessVariance_ / (runs * runs) + brightnessReferenceVariance_;
   for (size_t i = 0; i < reference_.size(); ++i) {
     total += reference_[i];
     difference += sum_[i] / runs;
-    variance += variance_[i];
   }
   if (total > 0) {
     result.brightness = normalInterval(difference / total, std::sqrt(variance) / total);

@@ -28,7 +28,7 @@ struct Film::Impl {
   uint32_t cropHeight = 0;
   gpu::Buffer replicates;
   gpu::Buffer aovs;
-  gpu::Buffer clamped; ///< null without FilmOptions::ledger
+  gpu::Buffer clamped;            ///< null without FilmOptions::ledger
   std::optional<FilmScale> scale; ///< absent while the film holds no samples
   // Made when first asked for.
   mutable gpu::Kernel errorKernel;

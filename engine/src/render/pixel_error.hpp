@@ -20,8 +20,10 @@ struct PixelError {
 /// sum w_r^2 (m_r - m)^2 / (1 - sum w_r^2) with w_r the replicate's share of the samples.
 ///
 /// The interval is Student's with one degree of freedom less than replicates: what a variance estimated from so few
-/// normal means needs. Where a single replicate makes the variance, the pixel saw a rare event about once, and the
-/// interval is widened to hold the rates that are plausible then (kRareEventQuantile).
+/// normal means needs. Where the replicates are skewed to the right its upper end lies farther out; the half-width is
+/// that of the upper end, so that the lower one covers rather too much. Where a single replicate makes the variance,
+/// the pixel saw a rare event about once, and the interval is widened to hold the rates that are plausible then
+/// (kRareEventQuantile).
 /// @param sums  the replicates' sums of one channel, @param counts  their sample counts
 [[nodiscard]] PixelError pixelError(const std::array<int64_t, gpu::kReplicateCount>& sums,
                                     const std::array<uint32_t, gpu::kReplicateCount>& counts, double valuePerUnit);
