@@ -127,7 +127,7 @@ std::vector<SettingEntry> makeTable() {
               "Smith's masking and shadowing of microfacets: correlated by their height, or as if independent"},
              estimator, &E::masking, {{"correlated", Masking::Correlated}, {"separable", Masking::Separable}}),
       choice(
-          {"fresnel", "gltf, exact, schlick", "exact", "gltf",
+          {"fresnel", "gltf, exact, schlick", "gltf", "gltf",
            "reflectance of dielectrics: exact (mean of s and p), by Schlick's approximation, or as glTF has it: exact "
            "for glass, Schlick's for opaque surfaces"},
           estimator, &E::fresnel, {{"gltf", Fresnel::Gltf}, {"exact", Fresnel::Exact}, {"schlick", Fresnel::Schlick}}),
@@ -223,7 +223,7 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
   }
   if (settings.estimator.fresnel == Fresnel::Schlick) {
     json["fresnel"] = {{"value", "schlick"},
-                       {"exact", "exact"},
+                       {"exact", "gltf"},
                        {"leaves_out", "the difference of glass's reflectance from Schlick's approximation"}};
   }
   return json;

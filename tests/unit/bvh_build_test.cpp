@@ -88,8 +88,8 @@ double medianSplitCost(std::vector<Box>& boxes, size_t first, size_t count, doub
 
 bool sameTree(const Bvh& a, const Bvh& b) {
   return a.order == b.order && a.nodes.size() == b.nodes.size() &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0 && a.sahCost == b.sahCost &&
-         a.maxDepth == b.maxDepth;
+         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)) == 0 &&
+         a.sahCost == b.sahCost && a.maxDepth == b.maxDepth;
 }
 
 } // namespace

@@ -357,11 +357,13 @@ TEST(PackScene, TheLightTreeHoldsLightsWhereTheirInstancesStand) {
     }
   };
   expectBox(packed.lightTree[0], {0, 3, -5}, {64, 4, 5});
+  const glm::vec4(&rows)[3] = packed.instances.back().worldFromObject;
+  const glm::dvec3 corner = glm::dvec3(rows[0].w, rows[1].w, rows[2].w) + packed.worldOrigin;
   uint32_t child = packed.lightTree[0].child; // the way to the last light, the second triangle of the last instance
   for (uint32_t trail = packed.lightTrails.back(); (child & gpu::kLightTreeLeaf) == 0; trail >>= 1) {
     const uint32_t node = (child & gpu::kLightTreeIndexMask) + (trail & 1u);
     child = packed.lightTree[node].child;
-    if ((child & gpu::kLightTreeLeaf) != 0) expectBox(packed.lightTree[node], {63, 3, 5}, {64, 4, 5});
+    if ((child & gpu::kLightTreeLeaf) != 0) expectBox(packed.lightTree[node], corner, corner + glm::dvec3(1, 1, 0));
   }
 }
 

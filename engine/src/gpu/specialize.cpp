@@ -83,8 +83,8 @@ std::vector<uint32_t> decorateNoContraction(const std::vector<uint32_t>& spirv) 
 /// Freezes and folds, removes dead branches, follows constants through local variables, then removes functions,
 /// variables and constants that nothing uses any more.
 ///
-/// Names go too. Every specialization constant is a module-scope constant, so this works function by function: inlining first, as
-/// spirv-opt -O does, took five times as long on the largest kernel and left more code. Left out on purpose:
+/// Names go too. Every specialization constant is a module-scope constant, so this works function by function: inlining
+/// first, as spirv-opt -O does, took five times as long on the largest kernel and left more code. Left out on purpose:
 /// simplification, which rewrites (a + b) - a to b where nothing says `precise`, while the same source must round alike
 /// whatever a scene has; and aggressive dead code elimination, which in SPIRV-Tools 2023.1 crashes on modules with
 /// function calls. What remains of unused values is removed by the driver.

@@ -28,6 +28,7 @@ class CheckedFile {
 public:
   explicit CheckedFile(const std::filesystem::path& file) : file_(file) {}
   void write(const void* bytes, size_t count) {
+    if (count == 0) return; // of a null pointer zlib gives the checksum of nothing
     file_.write(bytes, count);
     checksum_ = crc32_z(checksum_, static_cast<const Bytef*>(bytes), count);
   }
