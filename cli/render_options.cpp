@@ -124,6 +124,9 @@ void addEstimatorFlags(CLI::App& command, RenderOptions& options) {
   addSetting("seed", "N", "64 bits (0)");
   addSetting("filter", "NAME", "Pixel filter: box, gaussian, blackman-harris (default)");
   addSetting("sampler", "NAME", "sobol (Owen-scrambled, default), independent");
+  addSetting("ndf", "NAME", "Microfacets: ggx (default), beckmann, blinn-phong");
+  addSetting("masking", "NAME", "Of microfacets: correlated (default), separable");
+  addSetting("fresnel", "NAME", "Of dielectrics: gltf (default), exact, schlick");
   command
       .add_option_function<std::vector<std::string>>(
           "--set",
