@@ -259,7 +259,7 @@ void expectRadiance(const AnalyticScene& analytic, const Crossing& crossing, dou
   const double quantile = studentTwoSidedQuantile(significance, kSide * kSide - 1);
   const double wanted = floor * analytic.radiance;
   const double pilotHalfWidth = quantile * pixels({0, kPilot}).standardError();
-  const double more = 1.5 * kPilot * std::pow(pilotHalfWidth / wanted, 2);
+  const double more = 3 * kPilot * std::pow(pilotHalfWidth / wanted, 2);
   const auto samples = static_cast<uint32_t>(std::clamp(more, double{kPilot}, double{1u << 18}));
   const Moments mean = pixels({kPilot, kPilot + samples});
   expectHealthy(tracer.statistics());
