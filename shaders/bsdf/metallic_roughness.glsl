@@ -519,8 +519,11 @@ BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const ve
     if (transmitted) return evaluateTransmission(scene, m, shares, woLocal, wiLocal);
     return evaluateReflection(scene, m, shares, woLocal, wiLocal);
   }
+  if (!kHasDiffuseTransmission) {
+    const float density = kInvPi * wiLocal.z;
+    return BaseValue(vec3(0.0), m.baseColor * (m.diffuse * density), density);
+  }
   const float density = kInvPi * abs(wiLocal.z);
-  if (!kHasDiffuseTransmission) return BaseValue(vec3(0.0), m.baseColor * (m.diffuse * density), density);
   const float behind = lambertBehindProbability(m);
   if (transmitted) {
     return BaseValue(vec3(0.0), crossingReflectance(m.behind) * (m.diffuse * density), behind * density);
