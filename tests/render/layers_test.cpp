@@ -58,13 +58,13 @@ void expectReference(const Scene& scene, double powerFloor) {
   EXPECT_TRUE(sameImage(measured(image), measured(reference), {.absoluteTolerance = 4e-3, .powerFloor = powerFloor}));
 }
 
-// Brushed metal and plastic, the second across, the third by a texture of direction and strength.
+// Brushed metals, the second askew, the third by a texture of direction and strength.
 TEST(RenderLayers, AnisotropyMatchesTheReference) {
   Material along = metal({0.8f, 0.7f, 0.6f}, 0.4f);
   along.anisotropy.strength = 0.8f;
-  Material across = dielectric({0.2f, 0.4f, 0.3f}, 0.4f);
+  Material across = metal({0.6f, 0.7f, 0.8f}, 0.3f);
   across.anisotropy.strength = 0.7f;
-  across.anisotropy.rotation = 1.2f;
+  across.anisotropy.rotation = 0.8f;
   Material brushed = along;
   Scene scene = ballsOf({along, across, brushed});
   scene.materials[3].anisotropy.texture = useTexture(
@@ -79,7 +79,8 @@ TEST(RenderLayers, IridescenceMatchesTheReference) {
   soap.iridescence = {.factor = 1, .ior = 1.33f, .thicknessMaximum = 450};
   Material annealed = metal({0.6f, 0.5f, 0.4f}, 0.3f);
   annealed.iridescence = {.factor = 0.8f, .ior = 1.8f, .thicknessMaximum = 250};
-  Material pattern = soap;
+  Material pattern = annealed;
+  pattern.iridescence = {.factor = 1, .ior = 1.8f, .thicknessMinimum = 150, .thicknessMaximum = 600};
   Scene scene = ballsOf({soap, annealed, pattern});
   const uint32_t texture = addTexture(scene, 2, 1, {{255, 40, 0, 255}, {120, 220, 0, 255}}, Filter::Nearest);
   scene.materials[3].iridescence.texture = scene.materials[3].iridescence.thicknessTexture = useTexture(texture);
