@@ -140,8 +140,8 @@ AnalyticScene furnace() {
 }
 
 AnalyticScene blendedSheets() {
-  Scene scene = alphaLayers(3, 0.5f);
-  return {"Sheets", std::move(scene), orthographicLookAt({0, 0, 2}, {0, 0, 0}, 0.9, 0.9), 0.125};
+  Scene scene = alphaLayers(2, 0.5f);
+  return {"Sheets", std::move(scene), orthographicLookAt({0, 0, 2}, {0, 0, 0}, 0.9, 0.9), 0.25};
 }
 
 PunctualLight pointLight(glm::dvec3 position, float intensity, float radius) {
