@@ -5,6 +5,7 @@
 
 #include "glsl/traversal_scene.hpp"
 #include "isophote/error.hpp"
+#include "shared/geometry_types.h"
 #include "support/gpu_device.hpp"
 
 using namespace isophote;
@@ -33,7 +34,7 @@ TEST(GpuScene, StatisticsCountEveryByteOnce) {
   uint64_t sum = 0;
   for (const BufferUse& use : scene.statistics().buffers) sum += use.bytes;
   EXPECT_EQ(scene.statistics().sceneBytes + scene.statistics().bvhBytes, sum);
-  EXPECT_EQ(scene.statistics().bvhBytes, scene.statistics().bvhNodes * 64);
+  EXPECT_EQ(scene.statistics().bvhBytes, scene.statistics().bvhNodes * sizeof(gpu::BvhNode));
 }
 
 TEST(GpuScene, TooLargeASceneIsRefusedBeforeAnythingIsUploaded) {
