@@ -1,5 +1,5 @@
-// Directional albedo of anisotropic facets, read from the tables that engine/src/upload/anisotropic_albedo.cpp computes.
-// Layout: shared/bsdf_constants.h.
+// Directional albedo of anisotropic facets, read from the tables that engine/src/upload/anisotropic_albedo.cpp
+// computes. Layout: shared/bsdf_constants.h.
 #ifndef ISOPHOTE_BSDF_ANISOTROPIC_ALBEDO_GLSL
 #define ISOPHOTE_BSDF_ANISOTROPIC_ALBEDO_GLSL
 
@@ -44,8 +44,8 @@ vec2 anisotropicAlbedo(const SceneRef scene, const AnisotropicCell cell, const v
   const vec2 root = sqrt(width);
   const float seen = length(w.xy) > 0.0 ? sqrt(length(width * w.xy) / length(w.xy)) : root.x;
   const float azimuth = root.x > root.y ? clamp((seen - root.y) / (root.x - root.y), 0.0, 1.0) : 0.0;
-  const vec2 position = vec2(sqrt(clamp(w.z, 0.0, 1.0)), azimuth) *
-                        vec2(kAnisotropyMuCount - 1u, kAnisotropyAzimuthCount - 1u);
+  const vec2 position =
+      vec2(sqrt(clamp(w.z, 0.0, 1.0)), azimuth) * vec2(kAnisotropyMuCount - 1u, kAnisotropyAzimuthCount - 1u);
   const uvec2 first = min(uvec2(position), uvec2(kAnisotropyMuCount - 2u, kAnisotropyAzimuthCount - 2u));
   const vec2 t = position - vec2(first);
   const uint at = first.y * kAnisotropyMuCount + first.x;

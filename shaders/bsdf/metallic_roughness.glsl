@@ -255,9 +255,9 @@ float largest(const vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 float luminance(const vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); } // of Rec.709 primaries
 
-/// Returns the reflectance of a facet of glass: fresnelDielectric, or the setting's, scaled as KHR_materials_specular scales Schlick's
-/// approximation, f0 + (f90 - f0) x with x the share of the way from normal to grazing reflectance. Total internal
-/// reflection is total whatever the scale.
+/// Returns the reflectance of a facet of glass: fresnelDielectric, or the setting's, scaled as KHR_materials_specular
+/// scales Schlick's approximation, f0 + (f90 - f0) x with x the share of the way from normal to grazing reflectance.
+/// Total internal reflection is total whatever the scale.
 vec3 glassReflectance(const MetallicRoughness m, const float cosine) {
   const float reflectance =
       kFresnel == kFresnelSchlick ? schlickDielectric(cosine, m.eta) : fresnelDielectric(cosine, m.eta);
@@ -565,8 +565,7 @@ BsdfSample sampleFacetTransmission(const SceneRef scene, const MetallicRoughness
 ///
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
-BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, float uLobe,
-                      const vec2 u) {
+BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, float uLobe, const vec2 u) {
   if (woLocal.z < kMinCosine) return absorbed();
   if (!kHasSpecular) {
     vec3 wi = sampleCosineHemisphere(u);

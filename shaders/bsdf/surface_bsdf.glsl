@@ -58,8 +58,7 @@ const float kMinBaseLuminance = 0.05;
 LayerBaseAt layerBaseAt(const SceneRef scene, const SurfaceBsdf bsdf, const LayerBase base, const vec3 w) {
   if (!kHasSpecular) return LayerBaseAt(vec2(0.0), 1.0);
   const vec2 albedo = facetAlbedo(scene, bsdf.base, w);
-  const float passed =
-      coatTransmissionAt(scene, bsdf.base, abs(w.z), albedo, base.multiple, lostBetweenFacets(albedo));
+  const float passed = coatTransmissionAt(scene, bsdf.base, abs(w.z), albedo, base.multiple, lostBetweenFacets(albedo));
   return LayerBaseAt(albedo, max(passed, 1e-4)); // the lobe that it divides has been multiplied by it
 }
 

@@ -100,12 +100,12 @@ uint hitSlots(const uvec3 near, const uvec3 far, const vec3 scale, const vec3 ne
               const int tMin, const int tMax) {
   // As integers: where any distance is positive the larger float is the larger integer, and a negative one is below
   // tMin whichever it is.
-  const ivec4 t0 = max(max(floatBitsToInt(cells(near.x) * scale.x + nearBase.x),
-                           floatBitsToInt(cells(near.y) * scale.y + nearBase.y)),
-                       max(floatBitsToInt(cells(near.z) * scale.z + nearBase.z), ivec4(tMin)));
-  const ivec4 t1 = min(min(floatBitsToInt(cells(far.x) * scale.x + farBase.x),
-                           floatBitsToInt(cells(far.y) * scale.y + farBase.y)),
-                       min(floatBitsToInt(cells(far.z) * scale.z + farBase.z), ivec4(tMax)));
+  const ivec4 t0 = max(
+      max(floatBitsToInt(cells(near.x) * scale.x + nearBase.x), floatBitsToInt(cells(near.y) * scale.y + nearBase.y)),
+      max(floatBitsToInt(cells(near.z) * scale.z + nearBase.z), ivec4(tMin)));
+  const ivec4 t1 =
+      min(min(floatBitsToInt(cells(far.x) * scale.x + farBase.x), floatBitsToInt(cells(far.y) * scale.y + farBase.y)),
+          min(floatBitsToInt(cells(far.z) * scale.z + farBase.z), ivec4(tMax)));
   return (t0.x <= t1.x ? 0x1000007u : 0u) | (t0.y <= t1.y ? 0x2000038u : 0u) | (t0.z <= t1.z ? 0x40001c0u : 0u) |
          (t0.w <= t1.w ? 0x8000e00u : 0u);
 }
@@ -146,10 +146,10 @@ NodeHits enterNode(const uint64_t nodes, const uint index, const NodeRay ray, co
   const uvec2 farZ = ray.backward.z ? lowerZ : upperZ;
   const int t0 = floatBitsToInt(tMin);
   const int t1 = floatBitsToInt(tMax);
-  const uint low = hitSlots(uvec3(nearX.x, nearY.x, nearZ.x), uvec3(farX.x, farY.x, farZ.x), scale, nearBase, farBase,
-                            t0, t1);
-  const uint high = hitSlots(uvec3(nearX.y, nearY.y, nearZ.y), uvec3(farX.y, farY.y, farZ.y), scale, nearBase, farBase,
-                             t0, t1);
+  const uint low =
+      hitSlots(uvec3(nearX.x, nearY.x, nearZ.x), uvec3(farX.x, farY.x, farZ.x), scale, nearBase, farBase, t0, t1);
+  const uint high =
+      hitSlots(uvec3(nearX.y, nearY.y, nearZ.y), uvec3(farX.y, farY.y, farZ.y), scale, nearBase, farBase, t0, t1);
   const uint hit = (low | (high & 0xf000000u) << 4u | (high & 0xfffu) << 12u) & cf.x;
   NodeHits hits;
   hits.firstChild = cf.y;

@@ -30,9 +30,9 @@ struct RayHit {
   bool stackOverflow; // never, while the builder keeps to kMaxBvhDepth
 };
 
-// Inner children, or instances of a top-level leaf, that are still to be visited: two words. Children: where they begin;
-// a bit for each in the highest byte, the first to visit highest; which slots are inner nodes in the lowest. Instances:
-// the node; their bits in BvhNode.contents, the highest byte 0.
+// Inner children, or instances of a top-level leaf, that are still to be visited: two words. Children: where they
+// begin; a bit for each in the highest byte, the first to visit highest; which slots are inner nodes in the lowest.
+// Instances: the node; their bits in BvhNode.contents, the highest byte 0.
 
 // A path through one level leaves at most one group per node; the rest of a top-level leaf is one more.
 const uint kTraversalStackSize = 2u * kMaxBvhDepth + 1u;

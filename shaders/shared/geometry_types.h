@@ -12,10 +12,11 @@ ISOPHOTE_CONST float kRayInfinity = 3.402823466e38f; // tMax of a ray that nothi
 // No BVH is deeper than this many inner nodes from root to leaf; the traversal stack holds both levels.
 ISOPHOTE_CONST uint kMaxBvhDepth = 32u;
 
-// Up to eight children, their boxes in the cells of a frame of the node's own: a grid of 256 cells an axis whose size is
-// a power of two. The frame is that of Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through
-// Compressed Wide BVHs". A slot is empty, an inner node, or a leaf of one to three items (BvhTriangle in a mesh BVH,
-// InstanceRecord in the top level). Slot 4 a + 2 b + c lies towards the upper end of z where a, y where b, x where c.
+// Up to eight children, their boxes in the cells of a frame of the node's own: a grid of 256 cells an axis whose size
+// is a power of two. The frame is that of Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs
+// Through Compressed Wide BVHs". A slot is empty, an inner node, or a leaf of one to three items (BvhTriangle in a mesh
+// BVH, InstanceRecord in the top level). Slot 4 a + 2 b + c lies towards the upper end of z where a, y where b, x where
+// c.
 ISOPHOTE_CONST uint kBvhWidth = 8u;
 ISOPHOTE_CONST uint kBvhItemsPerSlot = 3u;
 ISOPHOTE_CONST uint kBvhInnerShift = 24u;
@@ -55,7 +56,7 @@ struct InstanceRecord {
   vec4 objectFromWorld[3];
   uint rootNode;
   uint firstEmitter; // light index of this instance's first emissive triangle, or of the sphere; or kInvalidIndex
-  uint mesh; // a group of the Scene's meshes
+  uint mesh;         // a group of the Scene's meshes
   uint flags;
 };
 ISOPHOTE_CONST uint kInstanceMirrored = 1u; // the map turns winding over

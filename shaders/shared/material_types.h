@@ -53,13 +53,13 @@ struct MaterialRecord {
   float transmission;
   float diffuseTransmission;
   vec3 diffuseTransmissionColor;
-  float thickness;       // 0: thin-walled
-  uint glassLoss;        // where its table begins, kInvalidIndex: none
-  uint exactAlbedo;      // where the table of its exact reflectance begins, in a render that asks for it
-  uint anisotropicAlbedo;      // where the table of its anisotropic facets begins, kInvalidIndex: none
-  vec3 extinction;       // of the medium behind the surface, per unit of length: absorption and scattering
-  float mediumPriority;  // where media overlap, the highest fills the place
-  vec3 scatteringAlbedo; // of one scattering, scattering over extinction
+  float thickness;        // 0: thin-walled
+  uint glassLoss;         // where its table begins, kInvalidIndex: none
+  uint exactAlbedo;       // where the table of its exact reflectance begins, in a render that asks for it
+  uint anisotropicAlbedo; // where the table of its anisotropic facets begins, kInvalidIndex: none
+  vec3 extinction;        // of the medium behind the surface, per unit of length: absorption and scattering
+  float mediumPriority;   // where media overlap, the highest fills the place
+  vec3 scatteringAlbedo;  // of one scattering, scattering over extinction
   float scatterAnisotropy;
   uint baseColorSlot;
   uint metallicRoughnessSlot;

@@ -25,7 +25,7 @@ struct SceneView {
   Address emissiveTriangles; // EmissiveTriangle
   Address punctualLights;    // PunctualLightRecord
   Address ggxAlbedo;         // vec2 table of bsdf/ggx_albedo.glsl
-  Address anisotropicAlbedo;       // vec2 tables of bsdf/anisotropic_albedo.glsl
+  Address anisotropicAlbedo; // vec2 tables of bsdf/anisotropic_albedo.glsl
   Address glassLoss;         // vec2 tables of bsdf/glass_loss.glsl
   Address clearcoatTable;    // float table of bsdf/layer.glsl
   Address sheenTable;        // the same of the sheen

@@ -23,7 +23,7 @@ struct GgxResult {
   float pdfReflection;
   vec3 sampled;
   float pdfSampled;
-  vec3 sampledUnseen; // of D cos
+  vec3 sampledUnseen;    // of D cos
   float projectedLength; // of wo
 };
 

@@ -17,6 +17,7 @@ StepCountResult probe(const TraversalCase c) {
   raySteps = RaySteps(0u, 0u, 0u, 0u);
   bool overflow;
   traceOccluded(scene, c.origin, c.direction, c.tMin, c.tMax, key, kInvalidIndex, overflow);
-  return StepCountResult(uint[2](closest.turns, raySteps.turns), uint[2](closest.nodes, raySteps.nodes), uint[2](closest.triangles, raySteps.triangles),
+  return StepCountResult(uint[2](closest.turns, raySteps.turns), uint[2](closest.nodes, raySteps.nodes),
+                         uint[2](closest.triangles, raySteps.triangles),
                          uint[2](closest.instances, raySteps.instances));
 }

@@ -33,6 +33,13 @@ namespace isophote::oracle {
 /// Safe to call from several threads.
 [[nodiscard]] glm::dvec2 directionalAlbedo(double mu, double alpha);
 
+/// (A, B) of anisotropic GGX for w, by quadrature at 33 values of sqrt(mu) and 17 of the azimuth, read bilinearly. Safe
+/// to call from several threads.
+[[nodiscard]] glm::dvec2 anisotropicAlbedo(const glm::dvec3& w, const glm::dvec2& alpha);
+
+/// Its cosine-weighted mean.
+[[nodiscard]] glm::dvec2 anisotropicMeanAlbedo(const glm::dvec2& alpha);
+
 /// Cosine-weighted mean over the hemisphere, 2 times the integral of directionalAlbedo(mu) mu over mu in [0, 1].
 [[nodiscard]] glm::dvec2 meanAlbedo(double alpha);
 

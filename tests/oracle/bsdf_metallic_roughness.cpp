@@ -21,6 +21,17 @@ bool isMirror(const MetallicRoughness& m) { return m.alpha < double(gpu::kMirror
 // GGX integrals of the lobe that is really there: a mirror's where alpha is below the limit.
 double modelAlpha(const MetallicRoughness& m) { return isMirror(m) ? 0 : m.alpha; }
 
+// (A, B) of the facets for light leaving along w.
+glm::dvec2 albedoAt(const MetallicRoughness& m, const glm::dvec3& w) {
+  if (m.brushedAlbedo && m.width.x != m.width.y) return anisotropicAlbedo(w, m.width);
+  return directionalAlbedo(std::abs(w.z), modelAlpha(m));
+}
+
+glm::dvec2 albedoMean(const MetallicRoughness& m) {
+  if (m.brushedAlbedo && m.width.x != m.width.y) return anisotropicMeanAlbedo(m.width);
+  return meanAlbedo(modelAlpha(m));
+}
+
 double lost(const MetallicRoughness& m, const glm::dvec2& albedo) {
   return m.multipleScattering ? 1 - albedo.x - albedo.y : 0;
 }
@@ -29,7 +40,7 @@ double lost(const MetallicRoughness& m, const glm::dvec2& albedo) {
 // Shading at Imageworks".
 glm::dvec3 multipleReflectance(const MetallicRoughness& m, const glm::dvec3& f0, const glm::dvec3& f90) {
   const glm::dvec3 fresnel = f0 + (f90 - f0) / 21.0;
-  const glm::dvec2 mean = meanAlbedo(modelAlpha(m));
+  const glm::dvec2 mean = albedoMean(m);
   const double kept = mean.x + mean.y;
   return fresnel * fresnel * kept / (1.0 - fresnel * (1 - kept));
 }
@@ -40,9 +51,10 @@ double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
 }
 
 // What the coat passes in one direction; of a film no more than its brightest channel leaves.
-double coatTransmission(const MetallicRoughness& m, double mu) {
-  const double passed = 1 - coatAlbedo(m, directionalAlbedo(mu, modelAlpha(m)));
+double coatTransmission(const MetallicRoughness& m, const glm::dvec3& w) {
+  const double passed = 1 - coatAlbedo(m, albedoAt(m, w));
   if (m.film.amount == 0) return passed;
+  const double mu = std::abs(w.z);
   const glm::dvec3 reflected = glm::mix(fresnelSchlick(m.glassF0, glm::dvec3(m.glassF90), mu),
                                         filmReflectance(m.film, mu, m.glassF0), m.film.amount);
   return std::min(passed, 1 - std::max({reflected.x, reflected.y, reflected.z}));
@@ -67,12 +79,11 @@ double diffuselySeenThrough(const MetallicRoughness& m) {
   return m.diffuseEta <= 1 ? m.diffuseTransmission : m.diffuseTransmission / (m.diffuseEta * m.diffuseEta);
 }
 
-// Both cosines to the normals of the sides where they are.
-glm::dvec3 diffuse(const MetallicRoughness& m, double muO, double muI, bool behind) {
-  const double alpha = modelAlpha(m);
-  const double transmittedO = coatTransmission(m, muO);
-  const double transmittedI = coatTransmission(m, muI);
-  const double mean = std::max(1 - coatAlbedo(m, meanAlbedo(alpha)), double(gpu::kMinCoatTransmission));
+glm::dvec3 diffuse(const MetallicRoughness& m, const glm::dvec3& wo, const glm::dvec3& wi) {
+  const bool behind = wi.z < 0;
+  const double transmittedO = coatTransmission(m, wo);
+  const double transmittedI = coatTransmission(m, wi);
+  const double mean = meanCoatTransmission(m);
   const glm::dvec3 color =
       behind ? m.diffuseTransmissionColor * diffuselySeenThrough(m) : m.baseColor * (1 - diffuselyCrossing(m));
   return color * ((1 - m.metallic) * (1 - m.transmission) / pi * transmittedO * transmittedI / mean);
@@ -89,25 +100,25 @@ struct GlassMultiple {
   double lossInFront = 0, meanInFront = 1, meanBehind = 1, transmitted = 0;
 };
 
-double glassLossAt(const MetallicRoughness& m, double mu, bool behind) {
+double glassLossAt(const MetallicRoughness& m, const glm::dvec3& w, bool behind) {
   if (!m.multipleScattering) return 0;
-  if (m.thinWalled) return lost(m, directionalAlbedo(mu, modelAlpha(m)));
+  if (m.thinWalled) return lost(m, albedoAt(m, w));
   if (transmitsDelta(m)) return 0;
   const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
   const double scale = std::min(1.0, std::max({m.glassF0.x, m.glassF0.y, m.glassF0.z}) / normal);
-  return glassLoss(mu, m.alpha, behind ? m.outerIor / m.innerIor : m.innerIor / m.outerIor, scale);
+  return glassLoss(std::abs(w.z), m.alpha, behind ? m.outerIor / m.innerIor : m.innerIor / m.outerIor, scale);
 }
 
-GlassMultiple glassMultiple(const MetallicRoughness& m, double muO) {
+GlassMultiple glassMultiple(const MetallicRoughness& m, const glm::dvec3& wo) {
   GlassMultiple result;
-  result.lossInFront = glassLossAt(m, muO, false);
+  result.lossInFront = glassLossAt(m, wo, false);
   if (result.lossInFront == 0) return result;
   const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
   const double scale = std::min(1.0, std::max({m.glassF0.x, m.glassF0.y, m.glassF0.z}) / normal);
   const double index = std::max(m.innerIor / m.outerIor, m.outerIor / m.innerIor);
   const double entering = 1 - scale * std::min(1.0, (index - 1) / (4.08567 + 1.00071 * index));
   if (m.thinWalled) {
-    result.meanInFront = result.meanBehind = lost(m, meanAlbedo(modelAlpha(m)));
+    result.meanInFront = result.meanBehind = lost(m, albedoMean(m));
     result.transmitted = entering;
     return result;
   }
@@ -124,10 +135,10 @@ struct Choice {
   double facets = 0, behind = 0;
 };
 
-Choice lobeChoice(const MetallicRoughness& m, double muO) {
-  const glm::dvec2 albedo = directionalAlbedo(muO, modelAlpha(m));
-  const GlassMultiple glass = glassMultiple(m, muO);
-  const double passed = coatTransmission(m, muO);
+Choice lobeChoice(const MetallicRoughness& m, const glm::dvec3& wo) {
+  const glm::dvec2 albedo = albedoAt(m, wo);
+  const GlassMultiple glass = glassMultiple(m, wo);
+  const double passed = coatTransmission(m, wo);
   const double below = luminance(m.baseColor) * passed;
   const double facets = luminance(m.f0 * albedo.x + m.f90 * albedo.y) +
                         glassShare(m) * (luminance(m.glassF0 * albedo.x + m.dielectricF90 * albedo.y) + below);
@@ -142,18 +153,18 @@ Choice lobeChoice(const MetallicRoughness& m, double muO) {
 }
 
 // The lobe of scattering between opaque facets, without the cosine.
-glm::dvec3 opaqueMultipleLobe(const MetallicRoughness& m, double muO, double muI) {
+glm::dvec3 opaqueMultipleLobe(const MetallicRoughness& m, const glm::dvec3& wo, const glm::dvec3& wi) {
   if (isMirror(m)) return glm::dvec3(0);
-  const double alpha = modelAlpha(m);
-  const double both = lost(m, directionalAlbedo(muO, alpha)) * lost(m, directionalAlbedo(muI, alpha));
-  return both > 0 ? opaqueMultiple(m) * (both / (pi * lost(m, meanAlbedo(alpha)))) : glm::dvec3(0);
+  const double both = lost(m, albedoAt(m, wo)) * lost(m, albedoAt(m, wi));
+  return both > 0 ? opaqueMultiple(m) * (both / (pi * lost(m, albedoMean(m)))) : glm::dvec3(0);
 }
 
 // The lobes of scattering between facets of glass, without the cosine; of both sides.
-glm::dvec3 glassMultipleLobe(const MetallicRoughness& m, double muO, double muI, bool behind) {
-  const GlassMultiple glass = glassMultiple(m, muO);
+glm::dvec3 glassMultipleLobe(const MetallicRoughness& m, const glm::dvec3& wo, const glm::dvec3& wi) {
+  const bool behind = wi.z < 0;
+  const GlassMultiple glass = glassMultiple(m, wo);
   if (glassShare(m) == 0 || glass.lossInFront == 0) return glm::dvec3(0);
-  const double both = glass.lossInFront * glassLossAt(m, muI, behind);
+  const double both = glass.lossInFront * glassLossAt(m, wi, behind);
   if (!behind) return glm::dvec3(glassShare(m) * (1 - glass.transmitted) * both / (pi * glass.meanInFront));
   const double toOuter = m.thinWalled ? 1 : m.outerIor * m.outerIor / (m.innerIor * m.innerIor); // of radiance
   return glassShare(m) * m.baseColor * glass.transmitted * both / (pi * glass.meanBehind) * toOuter;
@@ -319,13 +330,13 @@ bool transmitsDelta(const MetallicRoughness& m) {
 glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
   if (woLocal.z <= 0 || wiLocal.z == 0) return glm::dvec3(0);
   if (wiLocal.z < 0) {
-    glm::dvec3 f = diffuse(m, woLocal.z, -wiLocal.z, true);
+    glm::dvec3 f = diffuse(m, woLocal, wiLocal);
     if (m.transmission > 0 && !transmitsDelta(m))
-      f += transmittedByFacets(m, woLocal, wiLocal).f + glassMultipleLobe(m, woLocal.z, -wiLocal.z, true);
+      f += transmittedByFacets(m, woLocal, wiLocal).f + glassMultipleLobe(m, woLocal, wiLocal);
     return f * -wiLocal.z;
   }
-  glm::dvec3 f = diffuse(m, woLocal.z, wiLocal.z, false) + opaqueMultipleLobe(m, woLocal.z, wiLocal.z) +
-                 glassMultipleLobe(m, woLocal.z, wiLocal.z, false);
+  glm::dvec3 f =
+      diffuse(m, woLocal, wiLocal) + opaqueMultipleLobe(m, woLocal, wiLocal) + glassMultipleLobe(m, woLocal, wiLocal);
   if (!isMirror(m)) {
     const glm::dvec3 wm = glm::normalize(woLocal + wiLocal);
     const glm::dvec2 alpha(m.width);
@@ -337,9 +348,7 @@ glm::dvec3 evalBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const
 
 glm::dvec3 evalDiffuse(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
   if (woLocal.z <= 0 || wiLocal.z == 0) return glm::dvec3(0);
-  const bool behind = wiLocal.z < 0;
-  const double muI = std::abs(wiLocal.z);
-  return (diffuse(m, woLocal.z, muI, behind) + glassMultipleLobe(m, woLocal.z, muI, behind)) * muI;
+  return (diffuse(m, woLocal, wiLocal) + glassMultipleLobe(m, woLocal, wiLocal)) * std::abs(wiLocal.z);
 }
 
 double coatMultipleReflectance(const MetallicRoughness& m) {
@@ -347,12 +356,12 @@ double coatMultipleReflectance(const MetallicRoughness& m) {
 }
 
 double meanCoatTransmission(const MetallicRoughness& m) {
-  return std::max(1 - coatAlbedo(m, meanAlbedo(modelAlpha(m))), double(gpu::kMinCoatTransmission));
+  return std::max(1 - coatAlbedo(m, albedoMean(m)), double(gpu::kMinCoatTransmission));
 }
 
 double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {
   if (woLocal.z <= 0 || wiLocal.z == 0) return 0;
-  const auto [facets, behind] = lobeChoice(m, woLocal.z);
+  const auto [facets, behind] = lobeChoice(m, woLocal);
   if (wiLocal.z < 0) {
     double pdf = behind * -wiLocal.z / pi;
     if (m.transmission > 0 && !transmitsDelta(m)) pdf += facets * transmittedByFacets(m, woLocal, wiLocal).pdf;
@@ -370,7 +379,7 @@ double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm:
 BsdfSample sampleBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, double uLobe, const glm::dvec2& u) {
   BsdfSample result;
   if (woLocal.z <= 0) return result;
-  const auto [facets, behind] = lobeChoice(m, woLocal.z);
+  const auto [facets, behind] = lobeChoice(m, woLocal);
   if (uLobe < facets) {
     const glm::dvec3 wm = isMirror(m) ? glm::dvec3(0, 0, 1) : sampleVisibleNormal(woLocal, m.width, u);
     const double reflected = reflectionShare(m, glm::dot(woLocal, wm));

@@ -29,6 +29,7 @@ struct MetallicRoughness {
   glm::dvec3 diffuseTransmissionColor{1}; ///< of what crosses
   double diffuseEta = 1;                  ///< index behind over index in front, of the light that crosses diffusely
   bool multipleScattering = true;
+  bool brushedAlbedo = false; ///< what anisotropic facets lose is that of their direction, not of their mean width
 };
 
 struct BsdfSample {

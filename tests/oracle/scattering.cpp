@@ -23,6 +23,7 @@ Scattering::Scattering(const SurfacePoint& point, glm::dvec3 wo)
       model_(metallicRoughness(point.material.baseColor, point.material.metallic, point.material.roughness,
                                point.material.ior, point.material.specular, point.material.specularColor)) {
   if (point.material.anisotropy > 0) model_ = withAnisotropy(model_, point.material.anisotropy);
+  model_.brushedAlbedo = true;
   if (point.material.transmission > 0)
     model_ = withTransmission(model_, point.material.transmission, point.material.ior, point.frontFace,
                               point.material.thinWalled);

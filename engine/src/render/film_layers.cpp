@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "io/film_head.hpp"
 #include "isophote/error.hpp"
 #include "isophote/film.hpp"
+#include "render/film_head.hpp"
 #include "shared/film_types.h"
 
 namespace isophote {
@@ -51,7 +51,7 @@ std::vector<std::byte> gather(const Image& image, size_t words, const char* grou
 } // namespace
 
 void storeSums(Image& image, const FilmSums& sums) {
-  image.attributes[kAttribute] = io::filmHead(sums).dump();
+  image.attributes[kAttribute] = filmHead(sums).dump();
   scatter(sums.replicates, kReplicateWords, "replicates", image);
   if (!sums.aovs.empty()) scatter(sums.aovs, kAovWords, "aovs", image);
   if (!sums.clamped.empty()) scatter(sums.clamped, kClampedWords, "clamped", image);
@@ -64,7 +64,7 @@ FilmSums storedSums(const Image& image) {
   }
   FilmSums sums;
   try {
-    sums = io::filmFromHead(Json::parse(head->second));
+    sums = filmFromHead(Json::parse(head->second));
   } catch (const Json::exception& error) {
     throw UsageError(std::string(kAttribute) + ": " + error.what());
   }

@@ -11,8 +11,8 @@
 #include <zlib.h>
 
 #include "io/atomic_file.hpp"
-#include "io/film_head.hpp"
 #include "isophote/error.hpp"
+#include "render/film_head.hpp"
 
 namespace isophote {
 namespace {
@@ -47,7 +47,7 @@ Json headOf(const Checkpoint& checkpoint) {
   return {{"identity", checkpoint.identity},
           {"left", {checkpoint.left.first, checkpoint.left.last, checkpoint.left.begun}},
           {"seconds", checkpoint.seconds},
-          {"film", io::filmHead(checkpoint.sums)},
+          {"film", filmHead(checkpoint.sums)},
           {"replicate_bytes", checkpoint.sums.replicates.size()},
           {"aov_bytes", checkpoint.sums.aovs.size()},
           {"clamped_bytes", checkpoint.sums.clamped.size()}};
@@ -57,7 +57,7 @@ Checkpoint fromHead(const Json& head) {
   return {.identity = head.at("identity"),
           .left = {head.at("left").at(0), head.at("left").at(1), head.at("left").at(2)},
           .seconds = head.at("seconds"),
-          .sums = io::filmFromHead(head.at("film"))};
+          .sums = filmFromHead(head.at("film"))};
 }
 
 /// All bytes before the checksum, which has been compared.

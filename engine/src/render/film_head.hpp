@@ -5,7 +5,7 @@
 
 #include "isophote/film.hpp"
 
-namespace isophote::io {
+namespace isophote {
 
 /// All of `sums` but its bytes. Doubles are given by their bits.
 [[nodiscard]] nlohmann::ordered_json filmHead(const FilmSums& sums);
@@ -13,4 +13,4 @@ namespace isophote::io {
 /// The same read. @throws nlohmann::json::exception
 [[nodiscard]] FilmSums filmFromHead(const nlohmann::ordered_json& head);
 
-} // namespace isophote::io
+} // namespace isophote

@@ -1,9 +1,9 @@
-#include "io/film_head.hpp"
+#include "render/film_head.hpp"
 
 #include <bit>
 #include <cstdint>
 
-namespace isophote::io {
+namespace isophote {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -40,4 +40,4 @@ FilmSums filmFromHead(const Json& head) {
   return sums;
 }
 
-} // namespace isophote::io
+} // namespace isophote
