@@ -260,7 +260,7 @@ void expectRadiance(const AnalyticScene& analytic, const Crossing& crossing, dou
   const double wanted = floor * analytic.radiance;
   const double pilotHalfWidth = quantile * pixels({0, kPilot}).standardError();
   const double more = 3 * kPilot * std::pow(pilotHalfWidth / wanted, 2);
-  const auto samples = static_cast<uint32_t>(std::clamp(more, double{kPilot}, double{1u << 18}));
+  const auto samples = static_cast<uint32_t>(std::clamp(more, double{kPilot}, double{1u << 20}));
   const Moments mean = pixels({kPilot, kPilot + samples});
   expectHealthy(tracer.statistics());
   const double halfWidth = quantile * mean.standardError();
