@@ -47,7 +47,7 @@ private:
       }
       next = end;
     }
-    error_ = film_.error(rule_.confidence);
+    if (!error_.known) error_ = film_.error(rule_.confidence); // nothing was left to render
     return ended;
   }
 

@@ -21,6 +21,16 @@ struct RaySteps {
 #define COUNT_STEP(member)
 #endif
 
+// A macro, because a function would copy the whole stack in and out.
+#define PUSH_GROUP(node, bits)                                                                                         \
+  if (stackSize < kTraversalStackSize) {                                                                               \
+    stackFirst[stackSize] = node;                                                                                      \
+    stackGroup[stackSize] = bits;                                                                                      \
+    ++stackSize;                                                                                                       \
+  } else {                                                                                                             \
+    best.stackOverflow = true;                                                                                         \
+  }
+
 struct RayHit {
   float t;           // in units of the direction's length
   uint instance;     // index into the InstanceRecord array
@@ -88,13 +98,7 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
       const uint slot = (bit - kBvhInnerShift) ^ nodeRay.order;
       group ^= 1u << bit;
       if (group >= kLowestChildBit) {
-        if (stackSize < kTraversalStackSize) {
-          stackFirst[stackSize] = first;
-          stackGroup[stackSize] = group;
-          ++stackSize;
-        } else {
-          best.stackOverflow = true;
-        }
+        PUSH_GROUP(first, group);
       }
       itemNode = first + bitCount(group & ((1u << slot) - 1u));
       const NodeHits hits = enterNode(nodes, itemNode, nodeRay, tMin, best.t);
@@ -110,22 +114,10 @@ RayHit traverse(const SceneRef scene, const vec3 origin, const vec3 direction, c
       const uint index = firstItem + bitCount(present & ((1u << bit) - 1u));
       if (instance == kTopLevel) {
         if (group >= kLowestChildBit) {
-          if (stackSize < kTraversalStackSize) {
-            stackFirst[stackSize] = first;
-            stackGroup[stackSize] = group;
-            ++stackSize;
-          } else {
-            best.stackOverflow = true;
-          }
+          PUSH_GROUP(first, group);
         }
         if (items != 0u) {
-          if (stackSize < kTraversalStackSize) {
-            stackFirst[stackSize] = itemNode;
-            stackGroup[stackSize] = items;
-            ++stackSize;
-          } else {
-            best.stackOverflow = true;
-          }
+          PUSH_GROUP(itemNode, items);
         }
         items = 0u;
         group = 0u;

@@ -15,13 +15,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-class CliCheckpoint : public test::CommandLine {
+class CliCheckpoint : public test::CommandLineOnDevice {
 protected:
   void SetUp() override {
-    CommandLine::SetUp();
-    if (IsSkipped()) return;
-    if (run({"devices"}).exitCode != 0) GTEST_SKIP() << "no Vulkan device can be used";
-    scene_ = writeTriangle("triangle.gltf");
+    CommandLineOnDevice::SetUp();
+    if (!IsSkipped()) scene_ = writeTriangle("triangle.gltf");
   }
 
   [[nodiscard]] std::vector<std::string> command(const std::string& output, const std::string& spp,

@@ -5,13 +5,11 @@
 namespace isophote {
 namespace {
 
-class CliMerge : public test::CommandLine {
+class CliMerge : public test::CommandLineOnDevice {
 protected:
   void SetUp() override {
-    CommandLine::SetUp();
-    if (IsSkipped()) return;
-    if (run({"devices"}).exitCode != 0) GTEST_SKIP() << "no Vulkan device can be used";
-    scene_ = writeTriangle("triangle.gltf");
+    CommandLineOnDevice::SetUp();
+    if (!IsSkipped()) scene_ = writeTriangle("triangle.gltf");
   }
   void render(const std::string& output, const std::vector<std::string>& flags) const {
     std::vector<std::string> arguments = {"render", scene_, "-o", file(output), "--width", "20", "--quiet"};

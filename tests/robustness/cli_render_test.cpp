@@ -10,14 +10,8 @@
 namespace isophote {
 namespace {
 
-class CliRender : public test::CommandLine {
+class CliRender : public test::CommandLineOnDevice {
 protected:
-  void SetUp() override {
-    CommandLine::SetUp();
-    if (IsSkipped()) return;
-    if (run({"devices"}).exitCode != 0) GTEST_SKIP() << "no Vulkan device can be used";
-  }
-
   [[nodiscard]] test::CommandResult render(const std::vector<std::string>& flags) const {
     std::vector<std::string> arguments = {"render", writeTriangle("triangle.gltf"), "--width", "24", "-o", image()};
     arguments.insert(arguments.end(), flags.begin(), flags.end());

@@ -10,14 +10,8 @@
 namespace isophote {
 namespace {
 
-class CliTrade : public test::CommandLine {
+class CliTrade : public test::CommandLineOnDevice {
 protected:
-  void SetUp() override {
-    CommandLine::SetUp();
-    if (IsSkipped()) return;
-    if (run({"devices"}).exitCode != 0) GTEST_SKIP() << "no Vulkan device can be used";
-  }
-
   [[nodiscard]] std::vector<std::string> arguments(const std::string& budget) const {
     return {"trade",      writeTriangle("triangle.gltf"),
             "-o",         path("study").string(),

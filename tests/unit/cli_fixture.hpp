@@ -92,4 +92,14 @@ private:
   }
 };
 
+/// For commands that render.
+class CommandLineOnDevice : public CommandLine {
+protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    if (IsSkipped()) return;
+    if (run({"devices"}).exitCode != 0) GTEST_SKIP() << "no Vulkan device can be used";
+  }
+};
+
 } // namespace isophote::test
