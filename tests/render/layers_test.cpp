@@ -1,5 +1,4 @@
 // Layers over the base, rendered: against the reference tracer, and specialised kernels against the complete one.
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "support/gpu_device.hpp"
@@ -10,24 +9,6 @@ namespace isophote {
 namespace {
 
 using namespace isophote::test;
-
-// A ball of each kind on a floor, under a small bright panel and a dim sky.
-Scene ballsOf(const std::vector<Material>& materials) {
-  Scene scene = lambertFloor(glm::vec3(0.5f), 4);
-  for (size_t i = 0; i < materials.size(); ++i) {
-    Primitive ball = sphere(0.5, 16, true, false, addMaterial(scene, materials[i]));
-    for (const glm::vec3 normal : ball.normals) { // along the parallels
-      const glm::vec3 east = glm::cross(glm::vec3(0, 1, 0), normal);
-      ball.tangents.emplace_back(glm::length(east) > 1e-3f ? glm::normalize(east) : glm::vec3(1, 0, 0), 1);
-    }
-    addPrimitive(scene, ball,
-                 glm::translate(glm::dmat4(1), {1.1 * (double(i) - 0.5 * double(materials.size() - 1)), 0.5, 0}));
-  }
-  const uint32_t panel = addMaterial(scene, emitter({6, 5, 4}));
-  addPrimitive(scene, quad({-1, 2.5, 1}, {2, 0, 0}, {0, 0, 1}, panel));
-  scene.environment = constantEnvironment({0.3f, 0.4f, 0.5f});
-  return scene;
-}
 
 Scene layeredBalls() {
   Material coated = dielectric({0.7f, 0.1f, 0.1f}, 0.5f);
@@ -41,8 +22,6 @@ Scene layeredBalls() {
   velvet.sheen.roughness = 0.5f;
   return ballsOf({coated, flakes, velvet});
 }
-
-Camera ballsCamera() { return lookAt({0, 1.2, 4}, {0, 0.5, 0}, 0.6); }
 
 TEST(RenderLayers, ClearcoatAndSheenMatchTheReference) {
   const Scene scene = layeredBalls();

@@ -128,6 +128,25 @@ Scene materialSpheres() {
 
 Camera materialSpheresCamera() { return orthographicLookAt({0, 0, 10}, {0, 0, 0}, 4.6, 2.3); }
 
+Scene ballsOf(const std::vector<Material>& materials) {
+  Scene scene = lambertFloor(glm::vec3(0.5f), 4);
+  for (size_t i = 0; i < materials.size(); ++i) {
+    Primitive ball = sphere(0.5, 16, true, false, addMaterial(scene, materials[i]));
+    for (const glm::vec3 normal : ball.normals) { // along the parallels
+      const glm::vec3 east = glm::cross(glm::vec3(0, 1, 0), normal);
+      ball.tangents.emplace_back(glm::length(east) > 1e-3f ? glm::normalize(east) : glm::vec3(1, 0, 0), 1);
+    }
+    addPrimitive(scene, ball,
+                 glm::translate(glm::dmat4(1), {1.1 * (double(i) - 0.5 * double(materials.size() - 1)), 0.5, 0}));
+  }
+  const uint32_t panel = addMaterial(scene, emitter({6, 5, 4}));
+  addPrimitive(scene, quad({-1, 2.5, 1}, {2, 0, 0}, {0, 0, 1}, panel));
+  scene.environment = constantEnvironment({0.3f, 0.4f, 0.5f});
+  return scene;
+}
+
+Camera ballsCamera() { return lookAt({0, 1.2, 4}, {0, 0.5, 0}, 0.6); }
+
 Scene alphaLayers(uint32_t layers, float alpha) {
   Scene scene;
   scene.name = "alpha layers";

@@ -86,6 +86,10 @@ uint32_t addTexture(Scene& scene, uint32_t width, uint32_t height, const std::ve
 [[nodiscard]] Scene materialSpheres();
 [[nodiscard]] Camera materialSpheresCamera();
 
+/// A ball of each kind, of radius 1/2 and side by side on a floor, under a small bright panel and a dim sky.
+[[nodiscard]] Scene ballsOf(const std::vector<Material>& materials);
+[[nodiscard]] Camera ballsCamera();
+
 /// `layers` black sheets of opacity alpha over a white emitter, seen by an orthographic camera from +z.
 [[nodiscard]] Scene alphaLayers(uint32_t layers, float alpha);
 
