@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <exception>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <set>
 #include <thread>
@@ -198,6 +199,8 @@ void writeExr(const std::filesystem::path& file, const Image& image) {
     // ~OutputFile writes the table of line offsets and swallows what that throws; commit() throws it again.
   } catch (const OutputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw OutputError(file.string() + ": " + error.what());
   }
@@ -216,6 +219,8 @@ Image readExr(const std::filesystem::path& file) {
     checkHeader(file.string(), input.header());
     return readPlanes(input);
   } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw SceneError(file.string(), "", error.what());
