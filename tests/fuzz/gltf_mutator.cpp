@@ -203,7 +203,12 @@ std::string mutateGltf(const std::string& bytes, std::mt19937& random) {
   if (!glb) asset.json = Json::parse(bytes, nullptr, false);
   if (asset.json.is_discarded()) return bytes;
   for (uint32_t i = random() % 4 + 1; i > 0; --i) Mutator(asset, random).change();
-  return glb ? asset.glb() : asset.json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (!asset.json.is_object()) return bytes;
+  try {
+    return glb ? asset.glb() : asset.json.dump();
+  } catch (const Json::exception&) { // a name that is not UTF-8 was there before
+    return bytes;
+  }
 }
 
 } // namespace isophote::fuzz

@@ -32,6 +32,9 @@ namespace {
 constexpr uint64_t kMaxPixels = 1ull << 28;
 /// The most floats read over all channels: 16 GiB.
 constexpr uint64_t kMaxValues = 1ull << 32;
+/// No compression of the format makes less of a plane than this part: zlib's best is 1 / 1032, PIZ's runs are coded in
+/// some 1 / 2000. Headers that claim more are wrong, and would cost memory and time before that shows.
+constexpr uint64_t kMaxCompression = 8192;
 
 constexpr const char* kRenderTime = "renderTime";
 
@@ -104,8 +107,8 @@ void checkPlanes(const Image& image) {
   for (const IntegerChannel& channel : image.integers) check(channel);
 }
 
-/// @throws UnsupportedError, LimitError before any pixel memory exists
-void checkHeader(const std::string& file, const Imf::Header& header) {
+/// @throws SceneError, UnsupportedError, LimitError before any pixel memory exists
+void checkHeader(const std::string& file, uint64_t fileBytes, const Imf::Header& header) {
   const Imath::Box2i window = header.dataWindow();
   const int64_t width = int64_t(window.max.x) - window.min.x + 1;
   const int64_t height = int64_t(window.max.y) - window.min.y + 1;
@@ -123,6 +126,11 @@ void checkHeader(const std::string& file, const Imf::Header& header) {
     throw LimitError(file + ": " + std::to_string(width) + " x " + std::to_string(height) + " pixels in " +
                      std::to_string(channels) + " channels exceed the limit of " + std::to_string(kMaxPixels) +
                      " pixels and " + std::to_string(kMaxValues) + " values");
+  }
+  if (pixels * channels / kMaxCompression > fileBytes) {
+    throw SceneError(file, "",
+                     "an OpenEXR image whose " + std::to_string(fileBytes) + " bytes can hold the " +
+                         std::to_string(width) + " x " + std::to_string(height) + " pixels of its header");
   }
 }
 
@@ -212,11 +220,12 @@ Image readExr(const std::filesystem::path& file) {
   if (!stream.isOpen() || std::filesystem::is_directory(file))
     throw SceneError(file.string(), "", "a readable OpenEXR file");
   try {
-    checkHeader(file.string(), readFirstHeader(stream));
+    const uint64_t bytes = std::filesystem::file_size(file);
+    checkHeader(file.string(), bytes, readFirstHeader(stream));
     stream.seekg(0);
     Imf::InputFile input(stream);
     if (!input.isComplete()) throw std::runtime_error("an OpenEXR file whose writing was not finished");
-    checkHeader(file.string(), input.header());
+    checkHeader(file.string(), bytes, input.header());
     return readPlanes(input);
   } catch (const Error&) {
     throw;
