@@ -6,7 +6,7 @@
 
 #include "bsdf/clearcoat.glsl"
 #include "bsdf/layer.glsl"
-#include "bsdf/metallic_roughness.glsl"
+#include "bsdf/base_bsdf.glsl"
 #include "bsdf/sheen.glsl"
 
 struct SurfaceBsdf {

@@ -15,13 +15,13 @@ ISOPHOTE_CONST float kMirrorAlpha = 1e-3f;
 // gained.
 ISOPHOTE_CONST float kMinCoatTransmission = 1e-3f;
 
-// Table of GGX albedo integrals (A, B), see bsdf/ggx_albedo.glsl. Column c stands for mu = (c / (kGgxAlbedoMuCount -
-// 1))^2, row r for roughness = sqrt(alpha) = r / (kGgxAlbedoRoughnessCount - 1): item r * kGgxAlbedoMuCount + c. Behind
-// the rows follow kGgxAlbedoRoughnessCount cosine-weighted means over mu, one a row.
-ISOPHOTE_CONST uint kGgxAlbedoMuCount = 64u;
-ISOPHOTE_CONST uint kGgxAlbedoRoughnessCount = 64u;
-ISOPHOTE_CONST uint kGgxAlbedoMeans = kGgxAlbedoMuCount * kGgxAlbedoRoughnessCount;
-ISOPHOTE_CONST uint kGgxAlbedoSize = kGgxAlbedoMeans + kGgxAlbedoRoughnessCount;
+// Table of GGX albedo integrals (A, B), see bsdf/facet_albedo.glsl. Column c stands for mu = (c / (kFacetAlbedoMuCount -
+// 1))^2, row r for roughness = sqrt(alpha) = r / (kFacetAlbedoRoughnessCount - 1): item r * kFacetAlbedoMuCount + c. Behind
+// the rows follow kFacetAlbedoRoughnessCount cosine-weighted means over mu, one a row.
+ISOPHOTE_CONST uint kFacetAlbedoMuCount = 64u;
+ISOPHOTE_CONST uint kFacetAlbedoRoughnessCount = 64u;
+ISOPHOTE_CONST uint kFacetAlbedoMeans = kFacetAlbedoMuCount * kFacetAlbedoRoughnessCount;
+ISOPHOTE_CONST uint kFacetAlbedoSize = kFacetAlbedoMeans + kFacetAlbedoRoughnessCount;
 
 // Tables of (A, B) for anisotropic facets, see bsdf/anisotropic_albedo.glsl; one for each kind of surface, behind each
 // other. Item 0 is the range of roughness, item 1 that of strength; then follow planes of one roughness and strength,

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "shared/bsdf_constants.h"
-#include "upload/ggx_albedo.hpp"
+#include "upload/facet_albedo.hpp"
 #include "upload/memo.hpp"
 
 namespace isophote {
@@ -43,11 +43,11 @@ double mean(const Row& row) {
 }
 
 /// (A, B) of GGX at one roughness, from the device's own table.
-std::array<Row, 2> ggxRows(const FacetModel& model, double roughness) {
-  static_assert(kMuCount == gpu::kGgxAlbedoMuCount, "the nodes are shared");
-  const double position = roughness * (gpu::kGgxAlbedoRoughnessCount - 1);
-  const uint32_t r = std::min(static_cast<uint32_t>(position), gpu::kGgxAlbedoRoughnessCount - 2);
-  const std::vector<glm::vec2>& table = ggxAlbedoTable(model);
+std::array<Row, 2> facetRows(const FacetModel& model, double roughness) {
+  static_assert(kMuCount == gpu::kFacetAlbedoMuCount, "the nodes are shared");
+  const double position = roughness * (gpu::kFacetAlbedoRoughnessCount - 1);
+  const uint32_t r = std::min(static_cast<uint32_t>(position), gpu::kFacetAlbedoRoughnessCount - 2);
+  const std::vector<glm::vec2>& table = facetAlbedoTable(model);
   std::array<Row, 2> rows;
   for (uint32_t c = 0; c < kMuCount; ++c) {
     const glm::dvec2 low(table[r * kMuCount + c]);
@@ -80,7 +80,7 @@ void spread(Row& shares, double mu, double weight) {
   shares[c + 1] += weight * (position - c);
 }
 
-/// One row by visible normals, as in ggx_albedo.cpp.
+/// One row by visible normals, as in facet_albedo.cpp.
 void addReflectedShares(const Facets& facets, double mu, Row& shares, Row& grazing) {
   const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
   const double lengthO = facets.projectedLength(wo);
@@ -187,7 +187,7 @@ std::vector<float> computeTable(const FacetModel& model, const std::function<Lay
     for (uint32_t c = 0; c < kMuCount; ++c) passed[c] = std::max(1 - layer.albedo[c], 0.0);
     for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) {
       const uint32_t cell = r * gpu::kLayerBaseCount + b;
-      const std::array<Row, 2> ggx = ggxRows(model, baseRoughness(b));
+      const std::array<Row, 2> ggx = facetRows(model, baseRoughness(b));
       for (uint32_t i = 0; i < 2; ++i) {
         table[gpu::kLayerCovariance + 2 * cell + i] =
             static_cast<float>(meanOfProduct(ggx[i], layer.albedo) - mean(ggx[i]) * layerMean);
@@ -212,7 +212,7 @@ std::vector<float> computeTable(const FacetModel& model, const std::function<Lay
 }
 
 LayerAlbedo clearcoatAlbedo(const FacetModel& model, double roughness) {
-  const std::array<Row, 2> ggx = ggxRows(model, roughness);
+  const std::array<Row, 2> ggx = facetRows(model, roughness);
   LayerAlbedo layer;
   layer.scale.fill(1);
   for (uint32_t c = 0; c < kMuCount; ++c) layer.albedo[c] = double(gpu::kClearcoatF0) * ggx[0][c] + ggx[1][c];
@@ -297,7 +297,7 @@ SheenLobe sheenLobe(double roughness) {
 void addCoatedSheen(const FacetModel& model, const std::vector<SheenLobe>& lobes, std::vector<float>& table) {
   table.resize(gpu::kSheenTableSize);
   std::array<std::array<Row, 2>, gpu::kLayerBaseCount> ggx;
-  for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) ggx[b] = ggxRows(model, baseRoughness(b));
+  for (uint32_t b = 0; b < gpu::kLayerBaseCount; ++b) ggx[b] = facetRows(model, baseRoughness(b));
   for (uint32_t q = 0; q < gpu::kLayerBaseCount; ++q) {
     const Row coat = clearcoatAlbedo(model, baseRoughness(q)).albedo;
     for (uint32_t r = 0; r < gpu::kLayerRoughnessCount; ++r) {

@@ -140,7 +140,7 @@ private:
     std::vector<float>& iors = packed_.tables.opaqueIors;
     auto found = std::find(iors.begin(), iors.end(), material.ior);
     if (found == iors.end()) found = iors.insert(found, material.ior);
-    return static_cast<uint32_t>(found - iors.begin() + 1) * gpu::kGgxAlbedoSize;
+    return static_cast<uint32_t>(found - iors.begin() + 1) * gpu::kFacetAlbedoSize;
   }
 
   uint32_t slot(const TextureRef& use, bool srgb) {

@@ -1,6 +1,6 @@
 #include "upload/scattering_tables.hpp"
 
-#include "upload/ggx_albedo.hpp"
+#include "upload/facet_albedo.hpp"
 #include "upload/layer_tables.hpp"
 
 namespace isophote {
@@ -12,7 +12,7 @@ template <class T> void append(std::vector<T>& all, const std::vector<T>& more) 
 
 std::vector<glm::vec2> facetAlbedos(const TableNeeds& needs, const FacetModel& model, Fresnel fresnel) {
   std::vector<glm::vec2> all;
-  if (needs.facets) all = ggxAlbedoTable(model);
+  if (needs.facets) all = facetAlbedoTable(model);
   if (fresnel != Fresnel::Exact) return all;
   for (const float ior : needs.opaqueIors) append(all, exactAlbedoTable(model, ior));
   return all;
@@ -38,7 +38,7 @@ ScatteringTables::ScatteringTables(const Device& device, const TableNeeds& needs
 }
 
 void ScatteringTables::writeTo(gpu::SceneView& view) const {
-  view.ggxAlbedo = facetAlbedo_;
+  view.facetAlbedo = facetAlbedo_;
   view.anisotropicAlbedo = anisotropicAlbedo_;
   view.glassLoss = glassLoss_;
   view.clearcoatTable = clearcoat_;

@@ -16,7 +16,7 @@ struct TableNeeds {
   bool facets = false;
   bool clearcoat = false;
   bool sheen = false;
-  std::vector<float> opaqueIors; ///< of dielectric facets: MaterialRecord::exactAlbedo, from kGgxAlbedoSize on
+  std::vector<float> opaqueIors; ///< of dielectric facets: MaterialRecord::exactAlbedo, from kFacetAlbedoSize on
   std::vector<AnisotropicSurface> anisotropic; ///< one table each: MaterialRecord::anisotropicAlbedo
   std::vector<GlassSurface> glass; ///< one loss table each, 2 kGlassLossHalf items: MaterialRecord::glassLoss
 };
