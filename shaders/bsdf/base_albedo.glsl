@@ -5,6 +5,7 @@
 #include "bsdf/anisotropic_albedo.glsl"
 #include "bsdf/facet_albedo.glsl"
 #include "bsdf/facet_reflectance.glsl"
+#include "bsdf/film_albedo.glsl"
 #include "shared/buffers.glsl"
 #include "shared/constants.glsl"
 
@@ -30,17 +31,31 @@ vec2 facetMeanAlbedo(const SceneRef scene, const MetallicRoughness m) {
   return isotropicMeanAlbedo(scene, 0u, albedoAlpha(m));
 }
 
-// The same sum, parted as the coat's reflectance parts it: by the exact one where the setting has that.
-vec2 coatAlbedo(const SceneRef scene, const MetallicRoughness m, const vec2 albedo, const float mu) {
-  if (!reflectsExactly(m) || m.exactAlbedo == 0u) return albedo;
-  const float grazing = isotropicAlbedo(scene, m.exactAlbedo, mu, albedoAlpha(m)).y;
-  return vec2(albedo.x + albedo.y - grazing, grazing);
+FilmCell coatFilmCell(const SceneRef scene, const MetallicRoughness m) {
+  return filmCell(scene, m.filmAlbedo, vec2(m.film.thickness, sqrt(albedoAlpha(m))));
 }
 
-vec2 coatMeanAlbedo(const SceneRef scene, const MetallicRoughness m, const vec2 mean) {
-  if (!reflectsExactly(m) || m.exactAlbedo == 0u) return mean;
-  const float grazing = isotropicMeanAlbedo(scene, m.exactAlbedo, albedoAlpha(m)).y;
-  return vec2(mean.x + mean.y - grazing, grazing);
+/// What single reflections by the coat over the diffuse lobe reflect of light at cosine mu; of a film by channel, else
+/// alike in all.
+/// @param albedo of the facets, as facetAlbedo has it
+vec3 coatReflected(const SceneRef scene, const MetallicRoughness m, vec2 albedo, const float mu) {
+  if (reflectsExactly(m) && m.exactAlbedo != 0u) { // the same sum, parted as the exact reflectance parts it
+    const float grazing = isotropicAlbedo(scene, m.exactAlbedo, mu, albedoAlpha(m)).y;
+    albedo = vec2(albedo.x + albedo.y - grazing, grazing);
+  }
+  const vec3 bare = vec3(m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y);
+  return hasFilmAlbedo(m) ? mix(bare, filmAlbedo(scene, coatFilmCell(scene, m), mu), m.film.amount) : bare;
+}
+
+/// Returns the cosine-weighted mean of coatReflected.
+/// @param mean facetMeanAlbedo
+vec3 coatMeanReflected(const SceneRef scene, const MetallicRoughness m, vec2 mean) {
+  if (reflectsExactly(m) && m.exactAlbedo != 0u) {
+    const float grazing = isotropicMeanAlbedo(scene, m.exactAlbedo, albedoAlpha(m)).y;
+    mean = vec2(mean.x + mean.y - grazing, grazing);
+  }
+  const vec3 bare = vec3(m.dielectricF0 * mean.x + m.dielectricF90 * mean.y);
+  return hasFilmAlbedo(m) ? mix(bare, filmMeanAlbedo(scene, coatFilmCell(scene, m)), m.film.amount) : bare;
 }
 
 // Color of what leaves after more than one reflection between facets, for a loss that is white: the geometric series of
@@ -52,16 +67,12 @@ vec3 multipleReflectance(const vec3 f0, const vec3 f90, const float kept) {
   return mean * mean * (kept / (1.0 - mean * (1.0 - kept)));
 }
 
-float coatTransmission(const MetallicRoughness m, const vec2 albedo, const float multiple, const float lost) {
-  return max(1.0 - (m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + multiple * lost), 0.0);
-}
-
-// The same in one direction. Schlick's curve follows a film only roughly: no channel of the film itself may reflect
-// what the coat lets through.
-float coatTransmissionAt(const SceneRef scene, const MetallicRoughness m, const float mu, const vec2 albedo,
-                         const float multiple, const float lost) {
-  const float passed = coatTransmission(m, coatAlbedo(scene, m, albedo, mu), multiple, lost);
-  if (!hasFilm(m)) return passed;
+// What the coat passes in one direction. Schlick's curve follows a film only roughly: where that stands for it, no
+// channel of the film itself may reflect what the coat lets through.
+vec3 coatTransmissionAt(const SceneRef scene, const MetallicRoughness m, const float mu, const vec2 albedo,
+                        const float multiple, const float lost) {
+  const vec3 passed = max(1.0 - (coatReflected(scene, m, albedo, mu) + multiple * lost), vec3(0.0));
+  if (!hasFilm(m) || hasFilmAlbedo(m)) return passed;
   const vec3 bare = fresnelSchlick(m.glassF0, vec3(m.glassF90), mu);
   return min(passed, 1.0 - largest(mix(bare, filmReflectance(m.film, mu, m.glassF0), m.film.amount)));
 }

@@ -44,7 +44,7 @@ BaseValue evaluateReflection(const SceneRef scene, const MetallicRoughness m, co
                              const vec3 woLocal, const vec3 wiLocal) {
   const vec2 albedo = facetAlbedo(scene, m, wiLocal);
   const float lost = lostBetweenFacets(albedo);
-  const float entering = coatTransmissionAt(scene, m, wiLocal.z, albedo, shares.coatMultiple, lost);
+  const vec3 entering = coatTransmissionAt(scene, m, wiLocal.z, albedo, shares.coatMultiple, lost);
   const float cosine = kInvPi * wiLocal.z;
   BaseValue value;
   const float staying = m.diffuse * (1.0 - crossingShare(m.behind));
@@ -115,7 +115,7 @@ BaseValue evaluateTransmission(const SceneRef scene, const MetallicRoughness m, 
   }
   if (kHasDiffuseTransmission && m.behind.share > 0.0) { // both faces are coated alike
     const vec2 albedo = facetAlbedo(scene, m, wiLocal);
-    const float leaving =
+    const vec3 leaving =
         coatTransmissionAt(scene, m, -wiLocal.z, albedo, shares.coatMultiple, lostBetweenFacets(albedo));
     value.diffuse += crossingReflectance(m.behind) * (m.diffuse * (shares.coat * leaving / shares.meanCoat) * cosine);
   }

@@ -30,8 +30,8 @@ struct BaseShares {
   float meanLost;
   vec3 multiple;      // reflectance of multiple scattering by opaque facets
   float coatMultiple; // the same of the coat alone
-  float coat;         // what the coat lets through to the diffuse lobe
-  float meanCoat;     // mean over directions
+  vec3 coat;          // what the coat lets through to the diffuse lobe
+  vec3 meanCoat;      // mean over directions
   GlassMultiple glass;
   float facetProbability;  // of choosing a facet in sampleBase,
   float behindProbability; // of choosing the cosine lobe of the other side; the rest: this side's
@@ -81,17 +81,17 @@ BaseShares baseShares(const SceneRef scene, const MetallicRoughness m, const vec
                     m.diffuse * multipleReflectance(m.glassF0, vec3(m.glassF90), kept);
   shares.coatMultiple = multipleReflectance(vec3(m.dielectricF0), vec3(m.dielectricF90), kept).x;
   shares.coat = coatTransmissionAt(scene, m, muO, shares.albedo, shares.coatMultiple, shares.lost);
-  const vec2 meanCoat = coatMeanAlbedo(scene, m, mean);
-  shares.meanCoat =
-      max(coatTransmission(m, meanCoat, shares.coatMultiple, lostBetweenFacets(mean)), kMinCoatTransmission);
+  const vec3 meanReflected = coatMeanReflected(scene, m, mean) + shares.coatMultiple * lostBetweenFacets(mean);
+  shares.meanCoat = max(1.0 - meanReflected, vec3(kMinCoatTransmission));
   shares.glass = GlassMultiple(0.0, 1.0, 1.0, 0.0);
 
   float facets = luminance(m.f0 * shares.albedo.x + m.f90 * shares.albedo.y);
-  const float below = luminance(m.baseColor) * shares.coat;
+  const float coat = shares.coat.y; // under a film green stands for all channels
+  const float below = luminance(m.baseColor) * coat;
   float above = m.diffuse * (1.0 - crossingShare(m.behind)) * below + luminance(shares.multiple) * shares.lost;
   float behind = 0.0;
   if (kHasDiffuseTransmission) {
-    behind = m.diffuse * crossingShare(m.behind) * (luminance(m.behind.color) * shares.coat);
+    behind = m.diffuse * crossingShare(m.behind) * (luminance(m.behind.color) * coat);
   }
   if (kHasTransmission && m.glass > 0.0) {
     shares.glass = glassMultiple(scene, m, muO, shares);

@@ -8,9 +8,15 @@
 #include "math/constants.glsl"
 #include "shared/constants.glsl"
 
+float largest(const vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+float luminance(const vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); } // of Rec.709 primaries
+
 bool isConductor(const MetallicRoughness m) { return kHasConductor && m.conductorN.x > 0.0; }
 
 bool hasFilm(const MetallicRoughness m) { return kHasIridescence && m.film.amount > 0.0; }
+
+bool hasFilmAlbedo(const MetallicRoughness m) { return hasFilm(m) && m.filmAlbedo != kInvalidIndex; }
 
 vec3 metalReflectance(const MetallicRoughness m, const float cosine) {
   if (!isConductor(m)) return fresnelSchlick(m.baseColor, vec3(1.0), cosine);
@@ -48,32 +54,29 @@ void setConductor(inout MetallicRoughness m, const vec3 n, const vec3 k) {
   m.f0 = facetReflectance(m, 1.0);
 }
 
-/// Puts a thin film on the facets. The coat over the diffuse lobe is then taken for the brightest that interference can
-/// make it, so that no color gains energy.
-void setIridescence(inout MetallicRoughness m, const Iridescence film) {
+/// Puts a thin film on the facets. Without a table of what they then reflect, the coat over the diffuse lobe is taken
+/// for the brightest that interference can make it, so that no color gains energy.
+/// @param table of the albedo, or kInvalidIndex
+void setIridescence(inout MetallicRoughness m, const Iridescence film, const uint table) {
   if (film.amount <= 0.0) return;
   m.film = film;
-  m.dielectricF0 = mix(m.dielectricF0, max(m.dielectricF0, filmBound(film, m.glassF0)), film.amount);
-  m.dielectricF90 = mix(m.dielectricF90, 1.0, film.amount);
+  m.filmAlbedo = table;
+  if (table == kInvalidIndex) {
+    m.dielectricF0 = mix(m.dielectricF0, max(m.dielectricF0, filmBound(film, m.glassF0)), film.amount);
+    m.dielectricF90 = mix(m.dielectricF90, 1.0, film.amount);
+  }
   m.f90 = mix(m.f90, vec3(m.diffuse + m.metallic), film.amount);
   m.f0 = facetReflectance(m, 1.0);
 }
 
-float largest(const vec3 v) { return max(v.x, max(v.y, v.z)); }
-
-float luminance(const vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); } // of Rec.709 primaries
-
-/// Returns the reflectance of a facet of glass: fresnelDielectric, or the setting's, scaled as KHR_materials_specular
-/// scales Schlick's approximation, f0 + (f90 - f0) x with x the share of the way from normal to grazing reflectance.
-/// Total internal reflection is total whatever the scale.
+/// Returns the reflectance of a facet of glass without a film: fresnelDielectric, or the setting's, scaled as
+/// KHR_materials_specular scales Schlick's approximation, f0 + (f90 - f0) x with x the share of the way from normal to
+/// grazing reflectance. Total internal reflection is total whatever the scale.
 vec3 glassReflectance(const MetallicRoughness m, const float cosine) {
   const float reflectance =
       kFresnel == kFresnelSchlick ? schlickDielectric(cosine, m.eta) : fresnelDielectric(cosine, m.eta);
   if (reflectance >= 1.0) return vec3(1.0);
-  const vec3 bare = m.glassF0 + (vec3(m.glassF90) - m.glassF0) * grazingShare(reflectance, m.eta);
-  if (!hasFilm(m)) return bare;
-  const float sin2Outside = (1.0 - cosine * cosine) / min(m.eta * m.eta, 1.0); // from inside, by Snell's law
-  return mix(bare, filmReflectance(m.film, sqrt(max(1.0 - sin2Outside, 0.0)), m.glassF0), m.film.amount);
+  return m.glassF0 + (vec3(m.glassF90) - m.glassF0) * grazingShare(reflectance, m.eta);
 }
 
 /// What the facets under one cosine do with light.
@@ -87,9 +90,16 @@ struct FacetScattering {
 FacetScattering scatterAtFacet(const MetallicRoughness m, const float cosine) {
   FacetScattering facet = FacetScattering(facetReflectance(m, cosine), vec3(0.0), 1.0);
   if (!kHasTransmission || m.glass == 0.0) return facet;
-  const vec3 reflectance = glassReflectance(m, cosine);
+  vec3 reflectance = glassReflectance(m, cosine);
+  vec3 passed = vec3(1.0 - largest(reflectance)); // of no color, but for a film: the rest of what that reflects
+  if (hasFilm(m)) {
+    const float sin2Outside = (1.0 - cosine * cosine) / min(m.eta * m.eta, 1.0); // from inside, by Snell's law
+    const vec3 film = filmReflectance(m.film, sqrt(max(1.0 - sin2Outside, 0.0)), m.glassF0);
+    reflectance = mix(reflectance, film, m.film.amount);
+    passed = mix(passed, 1.0 - film, m.film.amount);
+  }
   facet.reflected += m.glass * reflectance;
-  facet.transmitted = m.glass * (1.0 - largest(reflectance)) * m.baseColor;
+  facet.transmitted = m.glass * passed * m.baseColor;
   const float reflected = luminance(facet.reflected);
   const float sum = reflected + luminance(facet.transmitted);
   facet.reflectedShare = sum > 0.0 ? reflected / sum : 1.0;

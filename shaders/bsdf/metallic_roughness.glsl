@@ -32,6 +32,7 @@ struct MetallicRoughness {
   uint lossInFront; // half tables of glassLoss for light from wo's side and from the other; kInvalidIndex: none
   uint lossBehind;
   Iridescence film;
+  uint filmAlbedo; // where the table of the filmed dielectric begins; kInvalidIndex: none
   vec3 conductorN; // complex index of the metal; 0: it reflects its base color
   vec3 conductorK;
   DiffuseTransmission behind; // the part of the diffuse lobe on the other side
@@ -69,6 +70,7 @@ MetallicRoughness metallicRoughness(const vec3 baseColor, const float metallic, 
   m.lossInFront = kInvalidIndex;
   m.lossBehind = kInvalidIndex;
   m.film = Iridescence(0.0, 1.0, 0.0);
+  m.filmAlbedo = kInvalidIndex;
   m.conductorN = vec3(0.0);
   m.conductorK = vec3(0.0);
   m.behind = kNoDiffuseTransmission;

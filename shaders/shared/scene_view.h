@@ -29,6 +29,8 @@ struct SceneView {
   Address glassLoss;         // vec2 tables of bsdf/glass_loss.glsl
   Address clearcoatTable;    // float table of bsdf/layer.glsl
   Address sheenTable;        // the same of the sheen
+  Address coatedSheenTable;  // vec4 table of bsdf/coated_sheen.glsl
+  Address filmAlbedo;        // vec3 tables of bsdf/film_albedo.glsl
   EnvironmentRecord environment;
   uint lightCount;
   uint emissiveTriangleCount;

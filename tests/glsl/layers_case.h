@@ -19,6 +19,8 @@ struct LayersCase {
   float film;
   float filmIor;
   float filmThickness;
+  uint filmAlbedo; // where its table begins; set by probeLayers
+  float transmission; // of a thin wall
   vec3 conductorN; // 0: none
   vec3 conductorK;
   float diffuseTransmission; // of a thin wall, white

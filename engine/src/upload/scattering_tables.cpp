@@ -29,6 +29,10 @@ ScatteringTables::ScatteringTables(const Device& device, const TableNeeds& needs
   anisotropicAlbedo_ = upload(device, anisotropic, "tables.anisotropicAlbedo");
   if (needs.clearcoat) clearcoat_ = upload(device, clearcoatTable(model), "tables.clearcoat");
   if (needs.sheen) sheen_ = upload(device, sheenTable(model), "tables.sheen");
+  if (needs.coatedSheen) coatedSheen_ = upload(device, coatedSheenTable(model), "tables.coatedSheen");
+  std::vector<glm::vec3> films;
+  for (const FilmSurface& surface : needs.films) append(films, filmAlbedoTable(surface, model));
+  filmAlbedo_ = upload(device, films, "tables.filmAlbedo");
   if (!settings.multipleScattering) return;
   std::vector<glm::vec2> losses;
   for (const GlassSurface& glass : needs.glass) {
@@ -43,6 +47,8 @@ void ScatteringTables::writeTo(gpu::SceneView& view) const {
   view.glassLoss = glassLoss_;
   view.clearcoatTable = clearcoat_;
   view.sheenTable = sheen_;
+  view.coatedSheenTable = coatedSheen_;
+  view.filmAlbedo = filmAlbedo_;
 }
 
 template <class T>
