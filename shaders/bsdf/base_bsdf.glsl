@@ -1,5 +1,5 @@
-// The scattering of a surface's base: the glTF 2.0 metallic-roughness model with transmission, made energy conserving and
-// reciprocal. Formulas: docs/bsdf.md.
+// The scattering of a surface's base: the glTF 2.0 metallic-roughness model with transmission, made energy conserving
+// and reciprocal. Formulas: docs/bsdf.md.
 //
 // Directions are unit and in the local shading frame, z the shading normal on wo's side; wi.z < 0: transmitted.
 #ifndef ISOPHOTE_BSDF_BASE_BSDF_GLSL

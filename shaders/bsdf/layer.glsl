@@ -94,9 +94,9 @@ vec2 readLayerThroughMeans(FloatRef table, const LayerCell cell, const float bas
 struct LayerBase {
   float roughness;
   float f90;
-  float multiple; // reflectance of scattering between facets
-  vec2 meanAlbedo; // (A, B) of white facets
-  vec3 meanF0;     // of the coat
+  float multiple;        // reflectance of scattering between facets
+  vec2 meanAlbedo;       // (A, B) of white facets
+  vec3 meanF0;           // of the coat
   vec3 meanTransmission; // > 0
 };
 

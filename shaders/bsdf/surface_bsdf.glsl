@@ -89,8 +89,8 @@ vec3 coatF0(const SurfaceBsdf bsdf, const vec3 reflected, const vec2 albedo, con
 LayerBase layerBase(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
   if (!kHasSpecular) return LayerBase(1.0, 0.0, 0.0, vec2(0.0), vec3(0.0), vec3(1.0));
   const BaseShares shares = baseShares(scene, bsdf.base, woLocal);
-  const float f90 = hasFilmAlbedo(bsdf.base) ? mix(bsdf.base.dielectricF90, 1.0, bsdf.base.film.amount)
-                                             : bsdf.base.dielectricF90;
+  const float f90 =
+      hasFilmAlbedo(bsdf.base) ? mix(bsdf.base.dielectricF90, 1.0, bsdf.base.film.amount) : bsdf.base.dielectricF90;
   const vec2 mean = facetMeanAlbedo(scene, bsdf.base);
   const vec3 reflected = coatMeanReflected(scene, bsdf.base, mean);
   return LayerBase(sqrt(albedoAlpha(bsdf.base)), f90, kMultipleScattering == 1u ? shares.coatMultiple : 0.0, mean,
@@ -238,12 +238,12 @@ void addLayerLobes(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtW
   if (isCoated(bsdf)) {
     const vec3 wiCoat = toLocal(at.coatFrame, wiLocal);
     coat = evaluateCoat(bsdf.coat, at.woCoat, wiCoat);
-    underCoat = passageOfEither(FloatRef(scene.view.clearcoatTable), at.along.coatCell, along.coatCell,
-                                bsdf.coat.amount);
+    underCoat =
+        passageOfEither(FloatRef(scene.view.clearcoatTable), at.along.coatCell, along.coatCell, bsdf.coat.amount);
   }
   if (hasSheen(bsdf)) {
-    const float sheen = evalSheen(FloatRef(scene.view.sheenTable), bsdf.sheen, at.along.sheenCell, along.sheenCell,
-                                  woLocal, wiLocal);
+    const float sheen =
+        evalSheen(FloatRef(scene.view.sheenTable), bsdf.sheen, at.along.sheenCell, along.sheenCell, woLocal, wiLocal);
     value.fCos += bsdf.sheen.color * (underCoat * sheen);
     value.pdfSolidAngle += (1.0 - at.coatProbability) * at.sheenProbability * kInvTwoPi;
   }

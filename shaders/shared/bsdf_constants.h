@@ -15,9 +15,9 @@ ISOPHOTE_CONST float kMirrorAlpha = 1e-3f;
 // gained.
 ISOPHOTE_CONST float kMinCoatTransmission = 1e-3f;
 
-// Table of the albedo integrals (A, B) of isotropic facets, see bsdf/facet_albedo.glsl. Column c stands for mu = (c / (kFacetAlbedoMuCount -
-// 1))^2, row r for roughness = sqrt(alpha) = r / (kFacetAlbedoRoughnessCount - 1): item r * kFacetAlbedoMuCount + c. Behind
-// the rows follow kFacetAlbedoRoughnessCount cosine-weighted means over mu, one a row.
+// Table of the albedo integrals (A, B) of isotropic facets, see bsdf/facet_albedo.glsl. Column c stands for mu = (c /
+// (kFacetAlbedoMuCount - 1))^2, row r for roughness = sqrt(alpha) = r / (kFacetAlbedoRoughnessCount - 1): item r *
+// kFacetAlbedoMuCount + c. Behind the rows follow kFacetAlbedoRoughnessCount cosine-weighted means over mu, one a row.
 ISOPHOTE_CONST uint kFacetAlbedoMuCount = 64u;
 ISOPHOTE_CONST uint kFacetAlbedoRoughnessCount = 64u;
 ISOPHOTE_CONST uint kFacetAlbedoMeans = kFacetAlbedoMuCount * kFacetAlbedoRoughnessCount;
@@ -58,16 +58,17 @@ ISOPHOTE_CONST uint kLayerThroughStride = kLayerRoughnessCount * kLayerBaseCount
 ISOPHOTE_CONST uint kLayerThroughMean = kLayerThrough + 2u * kLayerThroughStride; // [r][b][2] mean A, B that leaves
 ISOPHOTE_CONST uint kLayerTableSize = kLayerThroughMean + 2u * kLayerRoughnessCount * kLayerBaseCount;
 
-// Table of a sheen under a clearcoat, see bsdf/coated_sheen.glsl: items [r][q][b] of kLayerMuCount columns [c] and a mean.
-// r is the sheen's row, q stands for the coat's roughness q / (kCoatedSheenCoatCount - 1), b and c as above.
+// Table of a sheen under a clearcoat, see bsdf/coated_sheen.glsl: items [r][q][b] of kLayerMuCount columns [c] and a
+// mean. r is the sheen's row, q stands for the coat's roughness q / (kCoatedSheenCoatCount - 1), b and c as above.
 ISOPHOTE_CONST uint kCoatedSheenCoatCount = 8u;
 ISOPHOTE_CONST uint kCoatedSheenStride = kLayerMuCount + 1u;
 ISOPHOTE_CONST uint kCoatedSheenSize =
     kLayerRoughnessCount * kCoatedSheenCoatCount * kLayerBaseCount * kCoatedSheenStride;
 
-// Tables of what dielectric facets under a film reflect, see bsdf/film_albedo.glsl; one for each kind of surface, behind
-// each other. Item 0 is the range of thickness and the count of its nodes, item 1 that of roughness; then follow planes of
-// one thickness and roughness, roughnesses first, each kFilmMuCount columns of sqrt(mu) and the mean over the hemisphere.
+// Tables of what dielectric facets under a film reflect, see bsdf/film_albedo.glsl; one for each kind of surface,
+// behind each other. Item 0 is the range of thickness and the count of its nodes, item 1 that of roughness; then follow
+// planes of one thickness and roughness, roughnesses first, each kFilmMuCount columns of sqrt(mu) and the mean over the
+// hemisphere.
 ISOPHOTE_CONST uint kFilmMuCount = 64u;
 ISOPHOTE_CONST uint kFilmPlane = kFilmMuCount + 1u;
 ISOPHOTE_CONST uint kFilmHeader = 2u;

@@ -306,9 +306,8 @@ glm::dvec3 LayeredSurface::leftAlong(const glm::dvec3& w) const {
 }
 
 glm::dvec3 LayeredSurface::leftOnAverage() const {
-  return left(coatMeanReflected(base_), meanAlbedo(baseAlpha(base_)), [](const LayerCoupling& layer) {
-    return std::pair(layer.mean(), layer.meanThrough());
-  });
+  return left(coatMeanReflected(base_), meanAlbedo(baseAlpha(base_)),
+              [](const LayerCoupling& layer) { return std::pair(layer.mean(), layer.meanThrough()); });
 }
 
 // What the diffuse lobe's own coat passes; the lobe has been multiplied by it.
@@ -325,8 +324,8 @@ LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm:
         layer == nullptr ? 1 : layer->narrow(cosineTo(*layer, wo)) * layer->narrow(cosineTo(*layer, wi));
     result.narrow += share * coupling;
   }
-  result.broad = leftAlong(wo) * leftAlong(wi) * meanCoatTransmission(base_) /
-                 (leftOnAverage() * coatPassed(wo) * coatPassed(wi));
+  result.broad =
+      leftAlong(wo) * leftAlong(wi) * meanCoatTransmission(base_) / (leftOnAverage() * coatPassed(wo) * coatPassed(wi));
   return result;
 }
 

@@ -58,7 +58,8 @@ glm::dvec3 integrateFilm(const MetallicRoughness& m, double mu) {
   glm::dvec3 sum(0);
   for (int i = 0; i < side * side; ++i) {
     const double t = (i / side + 0.5) / side; // normals crowd at the cap's rim
-    const glm::dvec3 wm = sampleVisibleNormal(wo, glm::dvec2(m.alpha), {1 - t * t, 0.25 + 0.5 * (i % side + 0.5) / side});
+    const glm::dvec3 wm =
+        sampleVisibleNormal(wo, glm::dvec2(m.alpha), {1 - t * t, 0.25 + 0.5 * (i % side + 0.5) / side});
     const glm::dvec3 wi = 2 * glm::dot(wo, wm) * wm - wo;
     if (wi.z <= 0) continue;
     const double weight = ggxG2(wo, wi, glm::dvec2(m.alpha)) / ggxG1(wo, glm::dvec2(m.alpha));

@@ -64,8 +64,7 @@ std::vector<glm::vec3> computeTable(const FilmSurface& surface, const FacetModel
   std::vector<std::array<glm::dvec3, kCosineCount>> films(thicknesses);
   for (uint32_t t = 0; t < thicknesses; ++t) {
     for (uint32_t i = 0; i < kCosineCount; ++i) {
-      films[t][i] =
-          thinFilmReflectance(ior, node(surface.thickness, t, thicknesses), i / double(kCosineCount - 1), f0);
+      films[t][i] = thinFilmReflectance(ior, node(surface.thickness, t, thicknesses), i / double(kCosineCount - 1), f0);
     }
   }
   std::vector<glm::vec3> table{glm::vec3(surface.thickness, thicknesses), glm::vec3(surface.roughness, roughnesses)};

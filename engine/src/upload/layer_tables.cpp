@@ -122,8 +122,7 @@ std::vector<glm::vec4> computeCoatedSheen(const FacetModel& model) {
 
 const std::vector<float>& clearcoatTable(const FacetModel& model) {
   static Memo<FacetModel, std::vector<float>> tables;
-  return tables.get(model,
-                    [&] { return computeTable(model, [&](uint32_t r) { return clearcoatLobe(model, r); }); });
+  return tables.get(model, [&] { return computeTable(model, [&](uint32_t r) { return clearcoatLobe(model, r); }); });
 }
 
 const std::vector<float>& sheenTable(const FacetModel& model) {

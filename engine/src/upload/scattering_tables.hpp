@@ -20,7 +20,7 @@ struct TableNeeds {
   bool coatedSheen = false;      ///< both on one material
   std::vector<float> opaqueIors; ///< of dielectric facets: MaterialRecord::exactAlbedo, from kFacetAlbedoSize on
   std::vector<AnisotropicSurface> anisotropic; ///< one table each: MaterialRecord::anisotropicAlbedo
-  std::vector<FilmSurface> films;  ///< one table each: MaterialRecord::filmAlbedo
+  std::vector<FilmSurface> films;              ///< one table each: MaterialRecord::filmAlbedo
   std::vector<GlassSurface> glass; ///< one loss table each, 2 kGlassLossHalf items: MaterialRecord::glassLoss
 };
 
