@@ -13,7 +13,7 @@
 /// Factors of the lobes below, in [0, about 1.1].
 struct LayerPassage {
   float narrow; // of microfacet lobes
-  float broad;  // of diffuse lobes
+  vec3 broad;   // of diffuse lobes
 };
 
 /// Where a cosine and a layer's row lie in its table.
@@ -66,56 +66,10 @@ float readLayerNarrow(FloatRef table, const LayerCell cell, const float baseRoug
   return readLayerWith(table, kLayerNarrow, cell, baseRoughness);
 }
 
-/// What the table says of the row without a direction: x the mean albedo, yz the covariances of the albedo with the
-/// integrals (A, B) of a GGX lobe of roughness `baseRoughness`.
-vec3 readLayerMeans(FloatRef table, const LayerCell cell, const float baseRoughness) {
-  const float position = clamp(baseRoughness, 0.0, 1.0) * float(kLayerBaseCount - 1u);
-  const uint b = min(uint(position), kLayerBaseCount - 2u);
-  vec3 rows[2];
-  for (uint i = 0u; i < 2u; ++i) {
-    const uint r = cell.row + i;
-    const uint first = kLayerCovariance + 2u * (r * kLayerBaseCount + b);
-    const vec2 low = vec2(table.items[first], table.items[first + 1u]);
-    const vec2 high = vec2(table.items[first + 2u], table.items[first + 3u]);
-    rows[i] = vec3(table.items[kLayerMean + r], mix(low, high, position - float(b)));
-  }
-  return mix(rows[0], rows[1], cell.rowFraction);
+/// The cosine-weighted mean of the row's albedo.
+float readLayerMean(FloatRef table, const LayerCell cell) {
+  return mix(table.items[kLayerMean + cell.row], table.items[kLayerMean + cell.row + 1u], cell.rowFraction);
 }
-
-/// The same of the sheen's light that a clearcoat of roughness `coatRoughness` above it takes: the mean of kCoatedSheen
-/// and its covariances.
-vec3 readCoatedSheenMeans(FloatRef table, const LayerCell cell, const float coatRoughness, const float baseRoughness) {
-  const vec2 position = clamp(vec2(coatRoughness, baseRoughness), 0.0, 1.0) * float(kLayerBaseCount - 1u);
-  const uvec2 low = min(uvec2(position), uvec2(kLayerBaseCount - 2u));
-  const vec2 fraction = position - vec2(low);
-  vec3 sum = vec3(0.0);
-  for (uint i = 0u; i < 8u; ++i) {
-    const uvec3 corner = uvec3(i & 1u, (i >> 1u) & 1u, i >> 2u);
-    const float weight = (corner.x == 1u ? cell.rowFraction : 1.0 - cell.rowFraction) *
-                         (corner.y == 1u ? fraction.x : 1.0 - fraction.x) *
-                         (corner.z == 1u ? fraction.y : 1.0 - fraction.y);
-    const uint pair = (cell.row + corner.x) * kLayerBaseCount + low.x + corner.y;
-    const uint covariance = kCoatedSheenCovariance + 2u * (pair * kLayerBaseCount + low.y + corner.z);
-    sum += weight * vec3(table.items[kCoatedSheenMean + pair], table.items[covariance], table.items[covariance + 1u]);
-  }
-  return sum;
-}
-
-/// The base below a layer: of its diffuse lobe the microfacet coat that it lies under already.
-struct LayerBase {
-  float roughness;
-  float f0;
-  float f90;
-  float multiple;         // reflectance of scattering between facets
-  vec2 meanAlbedo;        // (A, B) of white facets
-  float meanTransmission; // of that coat, > 0
-};
-
-/// That coat in one direction.
-struct LayerBaseAt {
-  vec2 albedo;        // (A, B)
-  float transmission; // > 0
-};
 
 /// Shares of A and B that leave the layer.
 vec2 readLayerThrough(FloatRef table, const LayerCell cell, const float baseRoughness) {
@@ -136,42 +90,46 @@ vec2 readLayerThroughMeans(FloatRef table, const LayerCell cell, const float bas
   return mix(rows[0], rows[1], cell.rowFraction);
 }
 
-/// What the layer and the facets below it leave for the diffuse lobe to give back, in one direction or in the mean.
-/// @param reflected by the layer
-/// @param albedo    (A, B) of the facets without it
-/// @param through   and what of that leaves it
-float leftForDiffuse(const float reflected, const vec2 albedo, const vec2 through, const float amount,
-                     const LayerBase base) {
-  const float lost = max(1.0 - albedo.x - albedo.y, 0.0);
-  const float lostThrough = max(1.0 - reflected - through.x - through.y, 0.0);
-  const vec2 facets = mix(albedo, through, amount);
-  return 1.0 - amount * reflected -
-         (base.f0 * facets.x + base.f90 * facets.y + base.multiple * mix(lost, lostThrough, amount));
+/// The base below: microfacets, and of its diffuse lobe the coat that they are.
+struct LayerBase {
+  float roughness;
+  float f90;
+  float multiple;        // reflectance of scattering between facets
+  vec2 meanAlbedo;       // (A, B) of white facets
+  vec3 meanF0;           // of the coat
+  vec3 meanTransmission; // > 0
+};
+
+/// The base in one direction.
+struct LayerBaseAt {
+  vec2 albedo;       // (A, B)
+  vec3 f0;           // with f90 what the coat reflects: f0 A + f90 B
+  vec3 transmission; // of the coat, > 0
+};
+
+/// What layers and white facets below them send back, of light from one direction or in the mean.
+struct LayerReturn {
+  float reflected; // by the layers
+  vec2 facets;     // (A, B) that leaves them
+  float lost;      // what is lost between facets, and would leave
+};
+
+/// Adds a share of the surface.
+/// @param weight    of the share
+/// @param reflected by its layers
+/// @param facets    (A, B) that leaves them
+void addReturn(inout LayerReturn sum, const float weight, const float reflected, const vec2 facets) {
+  sum.reflected += weight * reflected;
+  sum.facets += weight * facets;
+  sum.lost += weight * max(1.0 - reflected - facets.x - facets.y, 0.0);
 }
 
-/// Mean over the hemisphere of what layers pass times what the coat of the base passes, over the mean of the latter.
-/// @param lost of light on its way through the layers, as readLayerMeans has it
-float meanPassed(const vec3 lost, const LayerBase base) {
-  return 1.0 - lost.x + (base.f0 * lost.y + base.f90 * lost.z) / base.meanTransmission;
-}
-
-/// @param cellO, cellI of wo and wi in the layer's row
-/// @param amount       coverage of the layer, in [0, 1]
-LayerPassage layerPassage(FloatRef table, const LayerCell cellO, const LayerCell cellI, const float amount,
-                          const LayerBase base, const LayerBaseAt baseO, const LayerBaseAt baseI) {
-  const float leftO = leftForDiffuse(readLayer(table, kLayerAlbedo, cellO), baseO.albedo,
-                                     baseO.albedo * readLayerThrough(table, cellO, base.roughness), amount, base);
-  const float leftI = leftForDiffuse(readLayer(table, kLayerAlbedo, cellI), baseI.albedo,
-                                     baseI.albedo * readLayerThrough(table, cellI, base.roughness), amount, base);
-  const float mean = leftForDiffuse(readLayerMeans(table, cellO, base.roughness).x, base.meanAlbedo,
-                                    readLayerThroughMeans(table, cellO, base.roughness), amount, base);
-  const float narrow = readLayerNarrow(table, cellO, base.roughness) * readLayerNarrow(table, cellI, base.roughness);
-  LayerPassage passage;
-  passage.narrow = 1.0 + amount * (narrow - 1.0);
-  // In place of the coat's own transmissions, by which the base has multiplied its diffuse lobe.
-  passage.broad = max(leftO, 0.0) * max(leftI, 0.0) * base.meanTransmission /
-                  (max(mean, kMinCoatTransmission) * baseO.transmission * baseI.transmission);
-  return passage;
+/// What layers and facets leave for the diffuse lobe to give back.
+/// @param f0 of the coat, in the direction or in the mean
+vec3 leftForDiffuse(const LayerReturn returned, const vec3 f0, const LayerBase base) {
+  return max(1.0 - returned.reflected -
+                 (f0 * returned.facets.x + base.f90 * returned.facets.y + base.multiple * returned.lost),
+             vec3(0.0));
 }
 
 /// The smaller of both directions' transmissions, mixed in by the amount: reciprocal, and never more than T(wo)

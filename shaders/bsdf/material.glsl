@@ -120,7 +120,10 @@ SurfaceMaterial materialAt(const SceneRef scene, const SurfaceHit surface, const
       setConductor(material.bsdf.base, record.conductorN, record.conductorK);
     }
     if (kHasIridescence && record.iridescence > 0.0) {
-      setIridescence(material.bsdf.base, iridescenceAt(scene, surface, record, geometry));
+      // Its table is of the material in air, too.
+      const bool inAir = eta == relativeIor(record.ior, true) || eta == relativeIor(record.ior, false);
+      setIridescence(material.bsdf.base, iridescenceAt(scene, surface, record, geometry),
+                     inAir ? record.filmAlbedo : kInvalidIndex);
     }
   } else {
     material.bsdf.base = metallicRoughness(reflectance, 0.0, 1.0, 1.0, 0.0, vec3(0.0));

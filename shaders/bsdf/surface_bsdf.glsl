@@ -4,9 +4,10 @@
 #ifndef ISOPHOTE_BSDF_SURFACE_BSDF_GLSL
 #define ISOPHOTE_BSDF_SURFACE_BSDF_GLSL
 
+#include "bsdf/base_bsdf.glsl"
 #include "bsdf/clearcoat.glsl"
+#include "bsdf/coated_sheen.glsl"
 #include "bsdf/layer.glsl"
-#include "bsdf/metallic_roughness.glsl"
 #include "bsdf/sheen.glsl"
 
 struct SurfaceBsdf {
@@ -31,21 +32,33 @@ SurfaceBsdf bareSurface(const MetallicRoughness base) {
   return SurfaceBsdf(base, Clearcoat(0.0, 0.0, vec3(0.0, 0.0, 1.0)), Sheen(vec3(0.0), 0.0), false);
 }
 
+/// Shares of the surface that lie bare, under one layer and under both.
+struct LayerCover {
+  float bare;
+  float coat;
+  float sheen;
+  float both;
+};
+
+/// The layers in one direction.
+struct LayersAlong {
+  LayerCell coatCell;
+  LayerCell sheenCell;
+  vec3 couplings; // with facets: of the coat, of the sheen and of both
+  vec3 broad;     // this direction's factor of the diffuse lobe
+};
+
 /// What does not depend on wi: the layers as seen from wo.
 struct LayersAtWo {
   Frame coatFrame;
   vec3 woCoat;
-  LayerCell coatCell;
-  LayerCell sheenCell;
   LayerBase base;
-  LayerBaseAt baseAtWo;
+  LayerCover cover;
+  LayersAlong along;
+  vec3 broad;             // the factor of the diffuse lobe that belongs to no direction
   float coatProbability;  // of sampling the coat
   float sheenProbability; // of sampling the sheen where not the coat; the rest is the base's
 };
-
-bool hasLayers(const SurfaceBsdf bsdf) {
-  return (kHasClearcoat && bsdf.coat.amount > 0.0) || (kHasSheen && sheenAmount(bsdf.sheen) > 0.0);
-}
 
 /// Maps a uniform number beyond `probability` back to [0, 1).
 float choiceRemainder(const float u, const float probability) {
@@ -55,37 +68,125 @@ float choiceRemainder(const float u, const float probability) {
 // The base keeps a share of the samples however dark it seems: its grazing reflection is white.
 const float kMinBaseLuminance = 0.05;
 
+bool isCoated(const SurfaceBsdf bsdf) { return kHasClearcoat && bsdf.coat.amount > 0.0; }
+
+bool hasSheen(const SurfaceBsdf bsdf) { return kHasSheen && sheenAmount(bsdf.sheen) > 0.0; }
+
+bool hasLayers(const SurfaceBsdf bsdf) { return isCoated(bsdf) || hasSheen(bsdf); }
+
+LayerCover layerCover(const SurfaceBsdf bsdf) {
+  const float coat = isCoated(bsdf) ? bsdf.coat.amount : 0.0;
+  const float sheen = hasSheen(bsdf) ? sheenAmount(bsdf.sheen) : 0.0;
+  return LayerCover((1.0 - coat) * (1.0 - sheen), coat * (1.0 - sheen), (1.0 - coat) * sheen, coat * sheen);
+}
+
+// The f0 with which f0 A + f90 B is what the coat reflects: its own, where it is Schlick's.
+vec3 coatF0(const SurfaceBsdf bsdf, const vec3 reflected, const vec2 albedo, const float f90) {
+  if (!hasFilmAlbedo(bsdf.base) && !reflectsExactly(bsdf.base)) return vec3(bsdf.base.dielectricF0);
+  return (reflected - f90 * albedo.y) / max(albedo.x, 1e-3);
+}
+
+LayerBase layerBase(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
+  if (!kHasSpecular) return LayerBase(1.0, 0.0, 0.0, vec2(0.0), vec3(0.0), vec3(1.0));
+  const BaseShares shares = baseShares(scene, bsdf.base, woLocal);
+  const float f90 =
+      hasFilmAlbedo(bsdf.base) ? mix(bsdf.base.dielectricF90, 1.0, bsdf.base.film.amount) : bsdf.base.dielectricF90;
+  const vec2 mean = facetMeanAlbedo(scene, bsdf.base);
+  const vec3 reflected = coatMeanReflected(scene, bsdf.base, mean);
+  return LayerBase(sqrt(albedoAlpha(bsdf.base)), f90, kMultipleScattering == 1u ? shares.coatMultiple : 0.0, mean,
+                   coatF0(bsdf, reflected, mean, f90), shares.meanCoat);
+}
+
 LayerBaseAt layerBaseAt(const SceneRef scene, const SurfaceBsdf bsdf, const LayerBase base, const vec3 w) {
-  if (!kHasSpecular) return LayerBaseAt(vec2(0.0), 1.0);
+  if (!kHasSpecular) return LayerBaseAt(vec2(0.0), vec3(0.0), vec3(1.0));
   const vec2 albedo = facetAlbedo(scene, bsdf.base, w);
-  const float passed = coatTransmissionAt(scene, bsdf.base, abs(w.z), albedo, base.multiple, lostBetweenFacets(albedo));
-  return LayerBaseAt(albedo, max(passed, 1e-4)); // the lobe that it divides has been multiplied by it
+  const vec3 passed = coatTransmissionAt(scene, bsdf.base, abs(w.z), albedo, base.multiple, lostBetweenFacets(albedo));
+  const vec3 f0 = coatF0(bsdf, coatReflected(scene, bsdf.base, albedo, abs(w.z)), albedo, base.f90);
+  return LayerBaseAt(albedo, f0, max(passed, vec3(1e-4))); // the lobe that it divides has been multiplied by it
+}
+
+CoatedSheenCell coatedSheenCell(const SurfaceBsdf bsdf, const LayerBase base, const LayerCell sheenCell) {
+  return coatedSheenCell(sheenCell, bsdf.coat.roughness, base.roughness);
+}
+
+LayersAlong layersAlong(const SceneRef scene, const SurfaceBsdf bsdf, const LayerBase base, const LayerCover cover,
+                        const vec3 w) {
+  FloatRef coatTable = FloatRef(scene.view.clearcoatTable);
+  FloatRef sheenTable = FloatRef(scene.view.sheenTable);
+  const LayerBaseAt at = layerBaseAt(scene, bsdf, base, w);
+  LayersAlong along;
+  along.couplings = vec3(0.0);
+  LayerReturn returned = LayerReturn(0.0, vec2(0.0), 0.0);
+  addReturn(returned, cover.bare, 0.0, at.albedo);
+  float coat = 0.0;
+  if (isCoated(bsdf)) {
+    along.coatCell = layerCell(abs(dot(bsdf.coat.normalLocal, w)), bsdf.coat.roughness);
+    coat = readLayer(coatTable, kLayerAlbedo, along.coatCell);
+    along.couplings.x = readLayerNarrow(coatTable, along.coatCell, base.roughness);
+    const vec2 through = readLayerThrough(coatTable, along.coatCell, base.roughness);
+    addReturn(returned, cover.coat, coat, at.albedo * through);
+  }
+  if (hasSheen(bsdf)) {
+    along.sheenCell = layerCell(abs(w.z), sheenRow(bsdf.sheen));
+    const float sheen = readLayer(sheenTable, kLayerAlbedo, along.sheenCell);
+    along.couplings.y = readLayerNarrow(sheenTable, along.sheenCell, base.roughness);
+    const vec2 through = readLayerThrough(sheenTable, along.sheenCell, base.roughness);
+    addReturn(returned, cover.sheen, sheen, at.albedo * through);
+    if (cover.both > 0.0) {
+      const CoatedSheenCell cell = coatedSheenCell(bsdf, base, along.sheenCell);
+      const CoatedSheen both = readCoatedSheen(Vec4Ref(scene.view.coatedSheenTable), cell, along.sheenCell);
+      along.couplings.z = along.couplings.x * both.coupling;
+      addReturn(returned, cover.both, coat + sheen - both.taken, at.albedo * both.through);
+    }
+  }
+  along.broad = leftForDiffuse(returned, at.f0, base) / at.transmission;
+  return along;
+}
+
+// The mean of what layers and facets leave for the diffuse lobe.
+vec3 meanLeftForDiffuse(const SceneRef scene, const SurfaceBsdf bsdf, const LayerBase base, const LayerCover cover,
+                        const LayersAlong along) {
+  FloatRef coatTable = FloatRef(scene.view.clearcoatTable);
+  FloatRef sheenTable = FloatRef(scene.view.sheenTable);
+  LayerReturn returned = LayerReturn(0.0, vec2(0.0), 0.0);
+  addReturn(returned, cover.bare, 0.0, base.meanAlbedo);
+  float coat = 0.0;
+  if (isCoated(bsdf)) {
+    coat = readLayerMean(coatTable, along.coatCell);
+    addReturn(returned, cover.coat, coat, readLayerThroughMeans(coatTable, along.coatCell, base.roughness));
+  }
+  if (hasSheen(bsdf)) {
+    const float sheen = readLayerMean(sheenTable, along.sheenCell);
+    addReturn(returned, cover.sheen, sheen, readLayerThroughMeans(sheenTable, along.sheenCell, base.roughness));
+    if (cover.both > 0.0) {
+      const CoatedSheenCell cell = coatedSheenCell(bsdf, base, along.sheenCell);
+      const vec3 both = readCoatedSheenMeans(Vec4Ref(scene.view.coatedSheenTable), cell);
+      addReturn(returned, cover.both, coat + sheen - both.x, both.yz);
+    }
+  }
+  return leftForDiffuse(returned, base.meanF0, base);
 }
 
 LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
   LayersAtWo at;
-  at.base = LayerBase(1.0, 0.0, 0.0, 0.0, vec2(0.0), 1.0);
-  if (kHasSpecular) {
-    const BaseShares shares = baseShares(scene, bsdf.base, woLocal);
-    at.base = LayerBase(sqrt(albedoAlpha(bsdf.base)), bsdf.base.dielectricF0, bsdf.base.dielectricF90,
-                        kMultipleScattering == 1u ? shares.coatMultiple : 0.0, facetMeanAlbedo(scene, bsdf.base),
-                        shares.meanCoat);
-  }
-  at.baseAtWo = layerBaseAt(scene, bsdf, at.base, woLocal);
+  at.base = layerBase(scene, bsdf, woLocal);
+  at.cover = layerCover(bsdf);
+  at.along = layersAlong(scene, bsdf, at.base, at.cover, woLocal);
+  // In place of the coat's own transmissions, by which the base has multiplied its diffuse lobe.
+  at.broad = at.along.broad * at.base.meanTransmission /
+             max(meanLeftForDiffuse(scene, bsdf, at.base, at.cover, at.along), vec3(kMinCoatTransmission));
   float reachable = 1.0; // share of the light that comes down to the layer at hand
   float coatShare = 0.0;
-  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
+  if (isCoated(bsdf)) {
     at.coatFrame = coatFrame(bsdf.coat);
     at.woCoat = toLocal(at.coatFrame, woLocal);
-    at.coatCell = layerCell(abs(at.woCoat.z), bsdf.coat.roughness);
-    coatShare = bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, at.coatCell);
+    coatShare = bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, at.along.coatCell);
     reachable -= coatShare;
     if (at.woCoat.z < kMinCosine || bsdf.insideSolid) coatShare = 0.0;
   }
   float sheenShare = 0.0;
-  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
-    at.sheenCell = layerCell(woLocal.z, sheenRow(bsdf.sheen));
-    const float albedo = readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, at.sheenCell);
+  if (hasSheen(bsdf)) {
+    const float albedo = readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, at.along.sheenCell);
     if (!bsdf.insideSolid) sheenShare = reachable * luminance(bsdf.sheen.color) * albedo;
     reachable *= 1.0 - sheenAmount(bsdf.sheen) * albedo;
   }
@@ -99,90 +200,51 @@ LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woL
 // Refraction crosses the layers once, on the outside; what they would throw back into the interior is lost.
 float passageOutside(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
   float passed = 1.0;
-  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
-    LayerCell cell = at.coatCell;
+  if (isCoated(bsdf)) {
+    LayerCell cell = at.along.coatCell;
     if (bsdf.insideSolid) cell = layerCell(abs(dot(bsdf.coat.normalLocal, wiLocal)), bsdf.coat.roughness);
     passed = 1.0 - bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, cell);
   }
-  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
-    LayerCell cell = at.sheenCell;
+  if (hasSheen(bsdf)) {
+    LayerCell cell = at.along.sheenCell;
     if (bsdf.insideSolid) cell = layerCell(abs(wiLocal.z), sheenRow(bsdf.sheen));
     passed *= 1.0 - sheenAmount(bsdf.sheen) * readLayer(FloatRef(scene.view.sheenTable), kLayerAlbedo, cell);
   }
   return passed;
 }
 
-// What a clearcoat and a sheen below it leave for the diffuse lobe to give back.
-float leftByBoth(const SceneRef scene, const SurfaceBsdf bsdf, const LayerCell coatCell, const LayerCell sheenCell) {
-  FloatRef sheenTable = FloatRef(scene.view.sheenTable);
-  const float coat = bsdf.coat.amount * readLayer(FloatRef(scene.view.clearcoatTable), kLayerAlbedo, coatCell);
-  const float sheen = readLayer(sheenTable, kLayerAlbedo, sheenCell) -
-                      bsdf.coat.amount * readLayerWith(sheenTable, kCoatedSheen, sheenCell, bsdf.coat.roughness);
-  return max(1.0 - coat - sheenAmount(bsdf.sheen) * sheen, 0.0);
-}
-
-// The diffuse lobe's passage through both, lossless as through one.
-float broadThroughBoth(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const LayerCell coatCellI,
-                       const LayerCell sheenCellI) {
-  FloatRef sheenTable = FloatRef(scene.view.sheenTable);
-  const float roughness = at.base.roughness;
-  const vec3 coat = readLayerMeans(FloatRef(scene.view.clearcoatTable), at.coatCell, roughness);
-  const vec3 sheen = readLayerMeans(sheenTable, at.sheenCell, roughness);
-  const vec3 coatedSheen = readCoatedSheenMeans(sheenTable, at.sheenCell, bsdf.coat.roughness, roughness);
-  const float amount = sheenAmount(bsdf.sheen);
-  const vec3 lost = bsdf.coat.amount * coat + amount * (sheen - bsdf.coat.amount * coatedSheen);
-  return leftByBoth(scene, bsdf, at.coatCell, at.sheenCell) * leftByBoth(scene, bsdf, coatCellI, sheenCellI) /
-         meanPassed(lost, at.base);
-}
-
-// A coat's and a sheen's couplings with facets both favor steep directions, so that their product would send back more
-// than arrives, by up to 0.93% (docs/bsdf-layers.md).
-const float kBothLayersLoss = 0.01;
-
 // What the layers leave of what the base scatters from wo to wi. Thin walls carry them on both sides, so that
 // transmission passes them as reflection does.
-LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal) {
-  LayerPassage passage = LayerPassage(1.0, 1.0);
+LayerPassage passageThrough(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 wiLocal,
+                            out LayersAlong along) {
   if (kHasFarSide && wiLocal.z < 0.0 && !bsdf.base.thinWalled) {
     const float passed = passageOutside(scene, bsdf, at, wiLocal);
-    return LayerPassage(passed, passed);
+    return LayerPassage(passed, vec3(passed));
   }
-  if (bsdf.insideSolid) return passage;
-  const bool coated = kHasClearcoat && bsdf.coat.amount > 0.0;
-  const LayerBaseAt baseAtWi = layerBaseAt(scene, bsdf, at.base, wiLocal);
-  LayerCell coatCell;
-  if (coated) {
-    coatCell = layerCell(abs(dot(bsdf.coat.normalLocal, wiLocal)), bsdf.coat.roughness);
-    passage = layerPassage(FloatRef(scene.view.clearcoatTable), at.coatCell, coatCell, bsdf.coat.amount, at.base,
-                           at.baseAtWo, baseAtWi);
-  }
-  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
-    const LayerCell cell = layerCell(abs(wiLocal.z), sheenRow(bsdf.sheen));
-    const LayerPassage sheen = layerPassage(FloatRef(scene.view.sheenTable), at.sheenCell, cell,
-                                            sheenAmount(bsdf.sheen), at.base, at.baseAtWo, baseAtWi);
-    passage.narrow *=
-        sheen.narrow * (coated ? 1.0 - kBothLayersLoss * bsdf.coat.amount * sheenAmount(bsdf.sheen) : 1.0);
-    passage.broad = coated ? broadThroughBoth(scene, bsdf, at, coatCell, cell) : sheen.broad;
-  }
-  return passage;
+  if (bsdf.insideSolid) return LayerPassage(1.0, vec3(1.0));
+  along = layersAlong(scene, bsdf, at.base, at.cover, wiLocal);
+  const vec3 couplings = at.along.couplings * along.couplings;
+  return LayerPassage(at.cover.bare + at.cover.coat * couplings.x + at.cover.sheen * couplings.y +
+                          at.cover.both * couplings.z,
+                      at.broad * along.broad);
 }
 
 // The lobes of the layers themselves, added to what comes from below.
-void addLayerLobes(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
-                   const vec3 wiLocal, inout BsdfValue value) {
+void addLayerLobes(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const LayersAlong along,
+                   const vec3 woLocal, const vec3 wiLocal, inout BsdfValue value) {
   if (bsdf.insideSolid || wiLocal.z < kMinCosine) return;
   float underCoat = 1.0;
   vec2 coat = vec2(0.0);
-  if (kHasClearcoat && bsdf.coat.amount > 0.0) {
+  if (isCoated(bsdf)) {
     const vec3 wiCoat = toLocal(at.coatFrame, wiLocal);
     coat = evaluateCoat(bsdf.coat, at.woCoat, wiCoat);
-    underCoat = passageOfEither(FloatRef(scene.view.clearcoatTable), at.coatCell,
-                                layerCell(abs(wiCoat.z), bsdf.coat.roughness), bsdf.coat.amount);
+    underCoat =
+        passageOfEither(FloatRef(scene.view.clearcoatTable), at.along.coatCell, along.coatCell, bsdf.coat.amount);
   }
-  if (kHasSheen && sheenAmount(bsdf.sheen) > 0.0) {
-    const LayerCell cell = layerCell(wiLocal.z, sheenRow(bsdf.sheen));
-    value.fCos += bsdf.sheen.color * (underCoat * evalSheen(FloatRef(scene.view.sheenTable), bsdf.sheen, at.sheenCell,
-                                                            cell, woLocal, wiLocal));
+  if (hasSheen(bsdf)) {
+    const float sheen =
+        evalSheen(FloatRef(scene.view.sheenTable), bsdf.sheen, at.along.sheenCell, along.sheenCell, woLocal, wiLocal);
+    value.fCos += bsdf.sheen.color * (underCoat * sheen);
     value.pdfSolidAngle += (1.0 - at.coatProbability) * at.sheenProbability * kInvTwoPi;
   }
   if (kHasClearcoat) {
@@ -194,11 +256,12 @@ void addLayerLobes(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtW
 BsdfValue evaluateLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
                           const vec3 wiLocal) {
   const BaseValue base = evaluateBase(scene, bsdf.base, woLocal, wiLocal);
-  const LayerPassage passage = passageThrough(scene, bsdf, at, wiLocal);
+  LayersAlong along;
+  const LayerPassage passage = passageThrough(scene, bsdf, at, wiLocal, along);
   BsdfValue value;
   value.fCos = base.diffuse * passage.broad + base.facets * passage.narrow;
   value.pdfSolidAngle = (1.0 - at.coatProbability) * (1.0 - at.sheenProbability) * base.pdfSolidAngle;
-  addLayerLobes(scene, bsdf, at, woLocal, wiLocal, value);
+  addLayerLobes(scene, bsdf, at, along, woLocal, wiLocal, value);
   return value;
 }
 
@@ -257,7 +320,8 @@ BsdfSample sampleLayered(const SceneRef scene, const SurfaceBsdf bsdf, const Lay
   }
   drawn = sampleBase(scene, bsdf.base, woLocal, choiceRemainder(uLobe, at.sheenProbability), u);
   if (drawn.delta) {
-    drawn.weight *= passageThrough(scene, bsdf, at, drawn.wiLocal).narrow /
+    LayersAlong along;
+    drawn.weight *= passageThrough(scene, bsdf, at, drawn.wiLocal, along).narrow /
                     ((1.0 - at.coatProbability) * (1.0 - at.sheenProbability));
     return drawn;
   }

@@ -15,13 +15,13 @@ ISOPHOTE_CONST float kMirrorAlpha = 1e-3f;
 // gained.
 ISOPHOTE_CONST float kMinCoatTransmission = 1e-3f;
 
-// Table of GGX albedo integrals (A, B), see bsdf/ggx_albedo.glsl. Column c stands for mu = (c / (kGgxAlbedoMuCount -
-// 1))^2, row r for roughness = sqrt(alpha) = r / (kGgxAlbedoRoughnessCount - 1): item r * kGgxAlbedoMuCount + c. Behind
-// the rows follow kGgxAlbedoRoughnessCount cosine-weighted means over mu, one a row.
-ISOPHOTE_CONST uint kGgxAlbedoMuCount = 64u;
-ISOPHOTE_CONST uint kGgxAlbedoRoughnessCount = 64u;
-ISOPHOTE_CONST uint kGgxAlbedoMeans = kGgxAlbedoMuCount * kGgxAlbedoRoughnessCount;
-ISOPHOTE_CONST uint kGgxAlbedoSize = kGgxAlbedoMeans + kGgxAlbedoRoughnessCount;
+// Table of the albedo integrals (A, B) of isotropic facets, see bsdf/facet_albedo.glsl. Column c stands for mu = (c /
+// (kFacetAlbedoMuCount - 1))^2, row r for roughness = sqrt(alpha) = r / (kFacetAlbedoRoughnessCount - 1): item r *
+// kFacetAlbedoMuCount + c. Behind the rows follow kFacetAlbedoRoughnessCount cosine-weighted means over mu, one a row.
+ISOPHOTE_CONST uint kFacetAlbedoMuCount = 64u;
+ISOPHOTE_CONST uint kFacetAlbedoRoughnessCount = 64u;
+ISOPHOTE_CONST uint kFacetAlbedoMeans = kFacetAlbedoMuCount * kFacetAlbedoRoughnessCount;
+ISOPHOTE_CONST uint kFacetAlbedoSize = kFacetAlbedoMeans + kFacetAlbedoRoughnessCount;
 
 // Tables of (A, B) for anisotropic facets, see bsdf/anisotropic_albedo.glsl; one for each kind of surface, behind each
 // other. Item 0 is the range of roughness, item 1 that of strength; then follow planes of one roughness and strength,
@@ -42,7 +42,7 @@ ISOPHOTE_CONST float kClearcoatF0 = 0.04f;
 // the horizon, too thin for its table.
 ISOPHOTE_CONST float kMinSheenAlpha = 5e-3f;
 
-// Table of a layer over the base, see bsdf/layer.glsl: floats. Nodes of mu as in the GGX table, c; r stands for the
+// Table of a layer over the base, see bsdf/layer.glsl: floats. Nodes of mu as in the table above, c; r stands for the
 // layer's row r / (kLayerRoughnessCount - 1), which is a clearcoat's roughness and sheenRow of a sheen's; b for the
 // base's roughness b / (kLayerBaseCount - 1).
 ISOPHOTE_CONST uint kLayerMuCount = 64u;
@@ -51,23 +51,30 @@ ISOPHOTE_CONST uint kLayerBaseCount = 16u;
 ISOPHOTE_CONST uint kLayerAlbedo = 0u;                                  // [r][c] what the layer reflects
 ISOPHOTE_CONST uint kLayerScale = kLayerRoughnessCount * kLayerMuCount; // [r][c] factor of the lobe at each direction
 ISOPHOTE_CONST uint kLayerMean = kLayerScale + kLayerRoughnessCount * kLayerMuCount; // [r] cosine-weighted mean albedo
-ISOPHOTE_CONST uint kLayerCovariance = kLayerMean + kLayerRoughnessCount; // [r][b][2] of the albedo with GGX's (A, B)
-ISOPHOTE_CONST uint kLayerNarrow =
-    kLayerCovariance + 2u * kLayerRoughnessCount * kLayerBaseCount; // [r][b][c] coupling with a microfacet base
+ISOPHOTE_CONST uint kLayerNarrow = kLayerMean + kLayerRoughnessCount; // [r][b][c] coupling with a microfacet base
 ISOPHOTE_CONST uint kLayerThrough =
     kLayerNarrow + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount; // [2][r][b][c] of A, B what leaves the layer
 ISOPHOTE_CONST uint kLayerThroughStride = kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount;
 ISOPHOTE_CONST uint kLayerThroughMean = kLayerThrough + 2u * kLayerThroughStride; // [r][b][2] mean A, B that leaves
 ISOPHOTE_CONST uint kLayerTableSize = kLayerThroughMean + 2u * kLayerRoughnessCount * kLayerBaseCount;
 
-// Behind the sheen's table: what it loses to a clearcoat above of roughness q / (kLayerBaseCount - 1).
-ISOPHOTE_CONST uint kCoatedSheen = kLayerTableSize; // [r][q][c] the mean of the larger of the coat's two albedos
-ISOPHOTE_CONST uint kCoatedSheenMean =
-    kCoatedSheen + kLayerRoughnessCount * kLayerBaseCount * kLayerMuCount; // [r][q] cosine-weighted mean of that
-ISOPHOTE_CONST uint kCoatedSheenCovariance =
-    kCoatedSheenMean + kLayerRoughnessCount * kLayerBaseCount; // [r][q][b][2] of it with GGX's (A, B)
-ISOPHOTE_CONST uint kSheenTableSize =
-    kCoatedSheenCovariance + 2u * kLayerRoughnessCount * kLayerBaseCount * kLayerBaseCount;
+// Table of a sheen under a clearcoat, see bsdf/coated_sheen.glsl: items [r][q][b] of kLayerMuCount columns [c] and a
+// mean. r is the sheen's row, q stands for the coat's roughness q / (kCoatedSheenCoatCount - 1), b and c as above.
+ISOPHOTE_CONST uint kCoatedSheenCoatCount = 8u;
+ISOPHOTE_CONST uint kCoatedSheenStride = kLayerMuCount + 1u;
+ISOPHOTE_CONST uint kCoatedSheenSize =
+    kLayerRoughnessCount * kCoatedSheenCoatCount * kLayerBaseCount * kCoatedSheenStride;
+
+// Tables of what dielectric facets under a film reflect, see bsdf/film_albedo.glsl; one for each kind of surface,
+// behind each other. Item 0 is the range of thickness and the count of its nodes, item 1 that of roughness; then follow
+// planes of one thickness and roughness, roughnesses first, each kFilmMuCount columns of sqrt(mu) and the mean over the
+// hemisphere.
+ISOPHOTE_CONST uint kFilmMuCount = 64u;
+ISOPHOTE_CONST uint kFilmPlane = kFilmMuCount + 1u;
+ISOPHOTE_CONST uint kFilmHeader = 2u;
+ISOPHOTE_CONST uint kFilmRoughnessCount = 32u; // where a texture gives it, else 1
+ISOPHOTE_CONST uint kFilmThicknessLimit = 256u;
+ISOPHOTE_CONST float kFilmPathStep = 20.0f; // nm of optical path between two thicknesses, where the limit allows
 
 // Tables of what one scattering by rough glass loses between its facets, see bsdf/glass_loss.glsl; one for each index,
 // behind each other. Each has two halves, for light that comes from the air and from the glass; each half

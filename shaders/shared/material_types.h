@@ -57,6 +57,7 @@ struct MaterialRecord {
   uint glassLoss;         // where its table begins, kInvalidIndex: none
   uint exactAlbedo;       // where the table of its exact reflectance begins, in a render that asks for it
   uint anisotropicAlbedo; // where the table of its anisotropic facets begins, kInvalidIndex: none
+  uint filmAlbedo;        // where the table of its filmed dielectric begins, kInvalidIndex: none
   vec3 extinction;        // of the medium behind the surface, per unit of length: absorption and scattering
   float mediumPriority;   // where media overlap, the highest fills the place
   vec3 scatteringAlbedo;  // of one scattering, scattering over extinction

@@ -24,11 +24,13 @@ struct SceneView {
   Address lightTrails;       // uint, one per light: bit d is the child to take at depth d of the tree
   Address emissiveTriangles; // EmissiveTriangle
   Address punctualLights;    // PunctualLightRecord
-  Address ggxAlbedo;         // vec2 table of bsdf/ggx_albedo.glsl
+  Address facetAlbedo;       // vec2 table of bsdf/facet_albedo.glsl
   Address anisotropicAlbedo; // vec2 tables of bsdf/anisotropic_albedo.glsl
   Address glassLoss;         // vec2 tables of bsdf/glass_loss.glsl
   Address clearcoatTable;    // float table of bsdf/layer.glsl
   Address sheenTable;        // the same of the sheen
+  Address coatedSheenTable;  // vec4 table of bsdf/coated_sheen.glsl
+  Address filmAlbedo;        // vec3 tables of bsdf/film_albedo.glsl
   EnvironmentRecord environment;
   uint lightCount;
   uint emissiveTriangleCount;

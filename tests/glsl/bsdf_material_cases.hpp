@@ -106,7 +106,7 @@ inline TableNeeds nameTables(std::vector<gpu::BsdfCase>& cases) {
   std::vector<float> glass;
   for (gpu::BsdfCase& c : cases) {
     const bool rough = c.roughness * c.roughness >= gpu::kMirrorAlpha;
-    c.exactAlbedo = (placeOf(needs.opaqueIors, c.ior) + 1) * gpu::kGgxAlbedoSize;
+    c.exactAlbedo = (placeOf(needs.opaqueIors, c.ior) + 1) * gpu::kFacetAlbedoSize;
     c.glassLoss = gpu::kInvalidIndex;
     if (c.transmission > 0 && c.thinWalled == 0 && rough) c.glassLoss = placeOf(glass, c.ior) * 2 * gpu::kGlassLossHalf;
     if (c.anisotropy > 0) {

@@ -19,7 +19,9 @@ struct LayersCase {
   float film;
   float filmIor;
   float filmThickness;
-  vec3 conductorN; // 0: none
+  uint filmAlbedo;    // where its table begins; set by probeLayers
+  float transmission; // of a thin wall
+  vec3 conductorN;    // 0: none
   vec3 conductorK;
   float diffuseTransmission; // of a thin wall, white
   vec3 wo;

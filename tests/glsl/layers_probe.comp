@@ -11,7 +11,8 @@ LayersResult probe(const LayersCase c) {
   SurfaceBsdf bsdf = bareSurface(metallicRoughness(c.baseColor, c.metallic, c.roughness, 1.5, c.specular, vec3(1.0)));
   setAnisotropy(bsdf.base, c.anisotropy, kInvalidIndex);
   if (c.conductorN.x > 0.0) setConductor(bsdf.base, c.conductorN, c.conductorK);
-  setIridescence(bsdf.base, Iridescence(c.film, c.filmIor, c.filmThickness));
+  if (c.transmission > 0.0) setTransmission(bsdf.base, c.transmission, 1.5, true);
+  setIridescence(bsdf.base, Iridescence(c.film, c.filmIor, c.filmThickness), c.filmAlbedo);
   if (c.diffuseTransmission > 0.0) {
     setDiffuseTransmission(bsdf.base, DiffuseTransmission(c.diffuseTransmission, vec3(1.0), 1.0), true);
   }

@@ -95,24 +95,28 @@ double sheenLobe(const glm::dvec3& wo, const glm::dvec3& wi, double roughness) {
 
 class LayerCoupling {
 public:
-  enum class Kind { Coat, Sheen };
+  enum class Kind { Coat, Sheen, CoatedSheen };
 
   LayerCoupling(Kind kind, double roughness, double alphaBelow) : kind_(kind), roughness_(roughness) {
     if (kind == Kind::Sheen) buildSheen();
-    mean_ = cosineMean([this](double mu) { return albedo(mu); });
-    const glm::dvec2 meanBelow(cosineMean([&](double mu) { return directionalAlbedo(mu, alphaBelow).x; }),
-                               cosineMean([&](double mu) { return directionalAlbedo(mu, alphaBelow).y; }));
-    for (int k = 0; k < 2; ++k) {
-      covariance_[k] = cosineMean([&](double mu) { return directionalAlbedo(mu, alphaBelow)[k] * albedo(mu); }) -
-                       meanBelow[k] * mean_;
+    buildFacets(alphaBelow);
+  }
+
+  /// A coat over a sheen. The coat takes the larger of its albedos at both directions from the sheen's light.
+  LayerCoupling(const LayerCoupling& coat, const LayerCoupling& sheen, double alphaBelow)
+      : kind_(Kind::CoatedSheen), roughness_(sheen.roughness_) {
+    for (int i = 0; i < kNodes; ++i) {
+      const double mu = std::max(nodeMu(i), 1e-6);
+      const double taken = sheen.scale(mu) * sheenIntegral(mu, sheen.roughness_, [&](double z) {
+                             return sheen.scale(z) * std::max(coat.albedo(z), coat.albedo(mu));
+                           });
+      albedo_.push_back(coat.albedo(mu) + sheen.albedo(mu) - taken);
     }
-    buildNarrow(alphaBelow);
-    for (int k = 0; k < 2; ++k)
-      meanThrough_[k] = cosineMean([&](double mu) { return directionalAlbedo(mu, alphaBelow)[k] * through(mu)[k]; });
+    buildFacets(alphaBelow);
   }
 
   [[nodiscard]] double albedo(double mu) const {
-    if (kind_ == Kind::Sheen) return interpolate(sheenAlbedo_, mu);
+    if (kind_ != Kind::Coat) return interpolate(albedo_, mu);
     const glm::dvec2 ab = directionalAlbedo(mu, coatAlpha(roughness_));
     return kCoatF0 * ab.x + ab.y;
   }
@@ -123,9 +127,15 @@ public:
   /// Cosine-weighted means of both albedos times that.
   [[nodiscard]] const glm::dvec2& meanThrough() const { return meanThrough_; }
   [[nodiscard]] double mean() const { return mean_; }
-  [[nodiscard]] const glm::dvec2& covariance() const { return covariance_; }
 
 private:
+  void buildFacets(double alphaBelow) {
+    mean_ = cosineMean([this](double mu) { return albedo(mu); });
+    buildNarrow(alphaBelow);
+    for (int k = 0; k < 2; ++k)
+      meanThrough_[k] = cosineMean([&](double mu) { return directionalAlbedo(mu, alphaBelow)[k] * through(mu)[k]; });
+  }
+
   void buildSheen() {
     for (int i = 0; i < kNodes; ++i) {
       const double raw = sheenIntegral(std::max(nodeMu(i), 1e-6), roughness_, [](double) { return 1.0; });
@@ -134,7 +144,7 @@ private:
     for (int i = 0; i < kNodes; ++i) {
       const double mu = std::max(nodeMu(i), 1e-6);
       const double scaled = sheenIntegral(mu, roughness_, [this](double z) { return scale(z); });
-      sheenAlbedo_.push_back(sheenScale_[static_cast<size_t>(i)] * scaled);
+      albedo_.push_back(sheenScale_[static_cast<size_t>(i)] * scaled);
     }
   }
 
@@ -203,40 +213,12 @@ private:
   Kind kind_;
   double roughness_;
   double mean_ = 0;
-  glm::dvec2 covariance_{0};
   std::vector<double> sheenScale_;
-  std::vector<double> sheenAlbedo_;
+  std::vector<double> albedo_;
   std::vector<double> narrow_;
   std::vector<double> normal_;
   std::vector<double> grazing_;
   glm::dvec2 meanThrough_{0};
-};
-
-class CoatedSheen {
-public:
-  CoatedSheen(const LayerCoupling& coat, const LayerCoupling& sheen, double sheenRoughness, double alphaBelow) {
-    for (int i = 0; i < kNodes; ++i) {
-      const double mu = std::max(nodeMu(i), 1e-6);
-      const double mean = sheenIntegral(
-          mu, sheenRoughness, [&](double z) { return sheen.scale(z) * std::max(coat.albedo(z), coat.albedo(mu)); });
-      taken_.push_back(sheen.scale(mu) * mean);
-    }
-    mean_ = cosineMean([this](double mu) { return taken(mu); });
-    for (int k = 0; k < 2; ++k) {
-      const auto below = [&](double mu) { return directionalAlbedo(mu, alphaBelow)[k]; };
-      covariance_[k] = cosineMean([&](double mu) { return below(mu) * taken(mu); }) - cosineMean(below) * mean_;
-    }
-  }
-
-  /// Albedo of the sheen's lobe times the larger of the coat's albedos at both directions.
-  [[nodiscard]] double taken(double mu) const { return interpolate(taken_, mu); }
-  [[nodiscard]] double mean() const { return mean_; }
-  [[nodiscard]] const glm::dvec2& covariance() const { return covariance_; }
-
-private:
-  std::vector<double> taken_;
-  double mean_ = 0;
-  glm::dvec2 covariance_{0};
 };
 
 namespace {
@@ -256,8 +238,6 @@ glm::dmat3 coatFrame(const glm::dvec3& normal) {
   return {tangent, glm::cross(normal, tangent), normal};
 }
 
-double mixed(double amount, double factor) { return 1 - amount + amount * factor; }
-
 } // namespace
 
 LayeredSurface::LayeredSurface(const MetallicRoughness& base, const ClearcoatLayer& coat, const SheenLayer& sheen)
@@ -265,8 +245,7 @@ LayeredSurface::LayeredSurface(const MetallicRoughness& base, const ClearcoatLay
   if (coat.amount > 0) coatCoupling_ = coupling(LayerCoupling::Kind::Coat, coat.roughness, baseAlpha(base));
   if (largest(sheen.color) > 0) sheenCoupling_ = coupling(LayerCoupling::Kind::Sheen, sheen.roughness, baseAlpha(base));
   if (coatCoupling_ && sheenCoupling_)
-    coatedSheen_ =
-        std::make_shared<const CoatedSheen>(*coatCoupling_, *sheenCoupling_, sheen.roughness, baseAlpha(base));
+    bothCoupling_ = std::make_shared<const LayerCoupling>(*coatCoupling_, *sheenCoupling_, baseAlpha(base));
 }
 
 LayeredSurface::Probabilities LayeredSurface::probabilities(const glm::dvec3& wo) const {
@@ -287,59 +266,66 @@ LayeredSurface::Probabilities LayeredSurface::probabilities(const glm::dvec3& wo
   return {coatShare > 0 ? coatShare / (coatShare + below) : 0, sheenShare > 0 ? sheenShare / below : 0};
 }
 
-// The layer reflects amount E; the coat's facets f0 A + f90 B and what scatters between them, of which a share leaves
-// the layer; the diffuse lobe gives back the rest, by U(wo) U(wi) / mean U in place of the same without a layer.
-double LayeredSurface::broadThrough(const LayerCoupling& layer, double amount, double muO, double muI) const {
-  const double f0 = base_.dielectricF0, f90 = base_.dielectricF90, multiple = coatMultipleReflectance(base_);
-  const auto left = [&](double reflected, const glm::dvec2& albedo, const glm::dvec2& through, double covered) {
-    const double bare = f0 * albedo.x + f90 * albedo.y + multiple * (1 - albedo.x - albedo.y);
-    const double under = f0 * through.x + f90 * through.y + multiple * (1 - reflected - through.x - through.y);
-    return 1 - covered * reflected - std::lerp(bare, under, covered);
-  };
-  const auto ratio = [&](double mu) {
-    const glm::dvec2 albedo = directionalAlbedo(mu, baseAlpha(base_));
-    const glm::dvec2 through = albedo * layer.through(mu);
-    return left(layer.albedo(mu), albedo, through, amount) / left(layer.albedo(mu), albedo, through, 0);
-  };
-  const double mean = left(layer.mean(), meanAlbedo(baseAlpha(base_)), layer.meanThrough(), amount);
-  return ratio(muO) * ratio(muI) * meanCoatTransmission(base_) / mean;
+// Shares of the surface that lie bare, under the coat, under the sheen and under both.
+std::vector<LayeredSurface::Cover> LayeredSurface::covers() const {
+  const double coat = coat_.amount, sheen = largest(sheen_.color);
+  std::vector<Cover> result{{(1 - coat) * (1 - sheen), nullptr}};
+  if (coatCoupling_) result.push_back({coat * (1 - sheen), coatCoupling_.get()});
+  if (sheenCoupling_) result.push_back({(1 - coat) * sheen, sheenCoupling_.get()});
+  if (bothCoupling_) result.push_back({coat * sheen, bothCoupling_.get()});
+  return result;
 }
 
-// Both layers lose c E_coat + a (E_sheen - c X), X what the coat takes of the sheen's light; the diffuse lobe gives
-// back the rest, U, by U(wo) U(wi) over the mean of U times what the base's own coat passes.
-double LayeredSurface::broadThroughBoth(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  const double amount = largest(sheen_.color);
-  const auto left = [&](const glm::dvec3& w) {
-    const double mu = std::abs(w.z);
-    const double coat = coat_.amount * coatCoupling_->albedo(std::abs(glm::dot(coat_.normal, w)));
-    return std::max(1 - coat - amount * (sheenCoupling_->albedo(mu) - coat_.amount * coatedSheen_->taken(mu)), 0.0);
-  };
-  const auto lost = [&](auto quantity) {
-    return coat_.amount * quantity(*coatCoupling_) +
-           amount * (quantity(*sheenCoupling_) - coat_.amount * quantity(*coatedSheen_));
-  };
-  const glm::dvec2 covariance = lost([](const auto& layer) { return layer.covariance(); });
-  const double mean =
-      1 - lost([](const auto& layer) { return layer.mean(); }) +
-      (base_.dielectricF0 * covariance.x + base_.dielectricF90 * covariance.y) / meanCoatTransmission(base_);
-  return left(wo) * left(wi) / mean;
+// A cosine to the coat's own normal where the layer is that coat.
+double LayeredSurface::cosineTo(const LayerCoupling& layer, const glm::dvec3& w) const {
+  return std::abs(&layer == coatCoupling_.get() ? glm::dot(coat_.normal, w) : w.z);
+}
+
+// Layers reflect E; the coat's facets f0 A + f90 B and what scatters between them, of which a share leaves. The rest is
+// for the diffuse lobe to give back. f0 makes the sum the coat's reflectance also where that is no Schlick curve.
+template <class Layer>
+glm::dvec3 LayeredSurface::left(const glm::dvec3& coatReflected, const glm::dvec2& albedo, const Layer& of) const {
+  const double f90 = std::lerp(base_.dielectricF90, 1.0, base_.film.amount);
+  const glm::dvec3 f0 = (coatReflected - f90 * albedo.y) / albedo.x;
+  const double multiple = coatMultipleReflectance(base_);
+  glm::dvec3 rest(1);
+  for (const auto& [share, layer] : covers()) {
+    const auto [reflected, facets] = layer == nullptr ? std::pair(0.0, albedo) : of(*layer);
+    rest -= share * (reflected + f0 * facets.x + f90 * facets.y + multiple * (1 - reflected - facets.x - facets.y));
+  }
+  return rest;
+}
+
+glm::dvec3 LayeredSurface::leftAlong(const glm::dvec3& w) const {
+  const double mu = std::abs(w.z);
+  const glm::dvec2 albedo = directionalAlbedo(mu, baseAlpha(base_));
+  return left(coatReflected(base_, mu), albedo, [&](const LayerCoupling& layer) {
+    const double cosine = cosineTo(layer, w);
+    return std::pair(layer.albedo(cosine), albedo * layer.through(cosine));
+  });
+}
+
+glm::dvec3 LayeredSurface::leftOnAverage() const {
+  return left(coatMeanReflected(base_), meanAlbedo(baseAlpha(base_)),
+              [](const LayerCoupling& layer) { return std::pair(layer.mean(), layer.meanThrough()); });
+}
+
+// What the diffuse lobe's own coat passes; the lobe has been multiplied by it.
+glm::dvec3 LayeredSurface::coatPassed(const glm::dvec3& w) const {
+  const double mu = std::abs(w.z);
+  const glm::dvec2 albedo = directionalAlbedo(mu, baseAlpha(base_));
+  return 1.0 - coatReflected(base_, mu) - coatMultipleReflectance(base_) * (1 - albedo.x - albedo.y);
 }
 
 LayeredSurface::Passage LayeredSurface::passage(const glm::dvec3& wo, const glm::dvec3& wi) const {
-  const auto through = [&](const LayerCoupling& layer, double amount, double muO, double muI) {
-    return Passage{mixed(amount, layer.narrow(muO) * layer.narrow(muI)), broadThrough(layer, amount, muO, muI)};
-  };
-  Passage result;
-  if (coatCoupling_) {
-    const double muO = std::abs(glm::dot(coat_.normal, wo)), muI = std::abs(glm::dot(coat_.normal, wi));
-    result = through(*coatCoupling_, coat_.amount, muO, muI);
+  Passage result{.narrow = 0};
+  for (const auto& [share, layer] : covers()) {
+    const double coupling =
+        layer == nullptr ? 1 : layer->narrow(cosineTo(*layer, wo)) * layer->narrow(cosineTo(*layer, wi));
+    result.narrow += share * coupling;
   }
-  if (sheenCoupling_) {
-    const Passage sheen = through(*sheenCoupling_, largest(sheen_.color), wo.z, std::abs(wi.z));
-    result.narrow *= sheen.narrow;
-    if (coatCoupling_) result.narrow *= 1 - 0.01 * coat_.amount * largest(sheen_.color);
-    result.broad = coatCoupling_ ? broadThroughBoth(wo, wi) : sheen.broad;
-  }
+  result.broad =
+      leftAlong(wo) * leftAlong(wi) * meanCoatTransmission(base_) / (leftOnAverage() * coatPassed(wo) * coatPassed(wi));
   return result;
 }
 
@@ -353,8 +339,7 @@ glm::dvec3 LayeredSurface::eval(const glm::dvec3& wo, const glm::dvec3& wi) cons
   if (sheenCoupling_) {
     double under = 1;
     if (coatCoupling_)
-      under =
-          mixed(coat_.amount, 1 - std::max(coatCoupling_->albedo(std::abs(muO)), coatCoupling_->albedo(std::abs(muI))));
+      under = 1 - coat_.amount * std::max(coatCoupling_->albedo(std::abs(muO)), coatCoupling_->albedo(std::abs(muI)));
     result += sheen_.color *
               (under * sheenCoupling_->scale(wo.z) * sheenCoupling_->scale(wi.z) * sheenLobe(wo, wi, sheen_.roughness));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -27,9 +28,6 @@ struct SheenLayer {
 /// What a layer reflects and how it couples with a base below.
 class LayerCoupling;
 
-/// What a clearcoat takes of the light of a sheen below it.
-class CoatedSheen;
-
 /// A base with layers. Costly to build (tens of milliseconds a new pair of roughnesses); copies share what was built.
 class LayeredSurface {
 public:
@@ -47,20 +45,29 @@ private:
   };
   struct Passage {
     double narrow = 1;
-    double broad = 1;
+    glm::dvec3 broad{1};
+  };
+  struct Cover {
+    double share = 0;
+    const LayerCoupling* layer = nullptr; ///< null: bare
   };
 
   [[nodiscard]] Probabilities probabilities(const glm::dvec3& wo) const;
   [[nodiscard]] Passage passage(const glm::dvec3& wo, const glm::dvec3& wi) const;
-  [[nodiscard]] double broadThrough(const LayerCoupling& layer, double amount, double muO, double muI) const;
-  [[nodiscard]] double broadThroughBoth(const glm::dvec3& wo, const glm::dvec3& wi) const;
+  [[nodiscard]] std::vector<Cover> covers() const;
+  [[nodiscard]] double cosineTo(const LayerCoupling& layer, const glm::dvec3& w) const;
+  template <class Layer>
+  [[nodiscard]] glm::dvec3 left(const glm::dvec3& coatReflected, const glm::dvec2& albedo, const Layer& of) const;
+  [[nodiscard]] glm::dvec3 leftAlong(const glm::dvec3& w) const;
+  [[nodiscard]] glm::dvec3 leftOnAverage() const;
+  [[nodiscard]] glm::dvec3 coatPassed(const glm::dvec3& w) const;
 
   MetallicRoughness base_;
   ClearcoatLayer coat_;
   SheenLayer sheen_;
   std::shared_ptr<const LayerCoupling> coatCoupling_;  ///< null: no coat
   std::shared_ptr<const LayerCoupling> sheenCoupling_; ///< null: no sheen
-  std::shared_ptr<const CoatedSheen> coatedSheen_;     ///< null: not both
+  std::shared_ptr<const LayerCoupling> bothCoupling_;  ///< null: not both
 };
 
 } // namespace isophote::oracle

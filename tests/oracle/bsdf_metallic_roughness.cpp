@@ -1,8 +1,12 @@
 #include "oracle/bsdf_metallic_roughness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
+#include <vector>
 
 #include "oracle/bsdf_fresnel.hpp"
 #include "oracle/bsdf_ggx.hpp"
@@ -45,19 +49,53 @@ glm::dvec3 multipleReflectance(const MetallicRoughness& m, const glm::dvec3& f0,
   return fresnel * fresnel * kept / (1.0 - fresnel * (1 - kept));
 }
 
-// What the coat over the diffuse lobe reflects, by (A, B) in one direction or their mean.
-double coatAlbedo(const MetallicRoughness& m, const glm::dvec2& albedo) {
-  return m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y + coatMultipleReflectance(m) * lost(m, albedo);
+// Albedo of isotropic facets that the film covers, one reflection: normals of density G1 D |dot| / cos are weighed by
+// G2 / G1 (Heitz 2014).
+glm::dvec3 integrateFilm(const MetallicRoughness& m, double mu) {
+  if (isMirror(m)) return filmReflectance(m.film, mu, m.glassF0);
+  const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
+  const int side = 40;
+  glm::dvec3 sum(0);
+  for (int i = 0; i < side * side; ++i) {
+    const double t = (i / side + 0.5) / side; // normals crowd at the cap's rim
+    const glm::dvec3 wm =
+        sampleVisibleNormal(wo, glm::dvec2(m.alpha), {1 - t * t, 0.25 + 0.5 * (i % side + 0.5) / side});
+    const glm::dvec3 wi = 2 * glm::dot(wo, wm) * wm - wo;
+    if (wi.z <= 0) continue;
+    const double weight = ggxG2(wo, wi, glm::dvec2(m.alpha)) / ggxG1(wo, glm::dvec2(m.alpha));
+    sum += 2 * t * weight / (side * side) * filmReflectance(m.film, std::min(glm::dot(wo, wm), 1.0), m.glassF0);
+  }
+  return sum;
 }
 
-// What the coat passes in one direction; of a film no more than its brightest channel leaves.
-double coatTransmission(const MetallicRoughness& m, const glm::dvec3& w) {
-  const double passed = 1 - coatAlbedo(m, albedoAt(m, w));
-  if (m.film.amount == 0) return passed;
+// The same between 129 nodes of sqrt(mu), kept for each film.
+glm::dvec3 filmAlbedo(const MetallicRoughness& m, double mu) {
+  constexpr int kNodes = 129;
+  static std::mutex mutex;
+  static std::map<std::array<double, 6>, std::vector<glm::dvec3>> known;
+  const std::lock_guard lock(mutex);
+  auto& nodes = known[{m.film.ior, m.film.thickness, m.alpha, m.glassF0.x, m.glassF0.y, m.glassF0.z}];
+  for (int i = static_cast<int>(nodes.size()); i < kNodes; ++i)
+    nodes.push_back(integrateFilm(m, std::max(std::pow(i / (kNodes - 1.0), 2), 1e-9)));
+  const double position = std::sqrt(mu) * (kNodes - 1);
+  const auto low = std::min(static_cast<size_t>(position), size_t(kNodes - 2));
+  return glm::mix(nodes[low], nodes[low + 1], position - double(low));
+}
+
+// A film's table is of isotropic facets; else it is bounded.
+bool isBounded(const MetallicRoughness& m) { return m.film.amount > 0 && m.width.x != m.width.y; }
+
+// What the coat passes in one direction; of a bounded film no more than its brightest channel leaves.
+glm::dvec3 coatTransmission(const MetallicRoughness& m, const glm::dvec3& w) {
   const double mu = std::abs(w.z);
+  glm::dvec2 albedo = albedoAt(m, w);
+  const glm::dvec3 single =
+      isBounded(m) ? glm::dvec3(m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y) : coatReflected(m, mu);
+  const glm::dvec3 passed = 1.0 - single - coatMultipleReflectance(m) * lost(m, albedo);
+  if (!isBounded(m)) return passed;
   const glm::dvec3 reflected = glm::mix(fresnelSchlick(m.glassF0, glm::dvec3(m.glassF90), mu),
                                         filmReflectance(m.film, mu, m.glassF0), m.film.amount);
-  return std::min(passed, 1 - std::max({reflected.x, reflected.y, reflected.z}));
+  return glm::min(passed, glm::dvec3(1 - std::max({reflected.x, reflected.y, reflected.z})));
 }
 
 glm::dvec3 metalReflectance(const MetallicRoughness& m, double cosine) {
@@ -81,9 +119,9 @@ double diffuselySeenThrough(const MetallicRoughness& m) {
 
 glm::dvec3 diffuse(const MetallicRoughness& m, const glm::dvec3& wo, const glm::dvec3& wi) {
   const bool behind = wi.z < 0;
-  const double transmittedO = coatTransmission(m, wo);
-  const double transmittedI = coatTransmission(m, wi);
-  const double mean = meanCoatTransmission(m);
+  const glm::dvec3 transmittedO = coatTransmission(m, wo);
+  const glm::dvec3 transmittedI = coatTransmission(m, wi);
+  const glm::dvec3 mean = meanCoatTransmission(m);
   const glm::dvec3 color =
       behind ? m.diffuseTransmissionColor * diffuselySeenThrough(m) : m.baseColor * (1 - diffuselyCrossing(m));
   return color * ((1 - m.metallic) * (1 - m.transmission) / pi * transmittedO * transmittedI / mean);
@@ -138,7 +176,7 @@ struct Choice {
 Choice lobeChoice(const MetallicRoughness& m, const glm::dvec3& wo) {
   const glm::dvec2 albedo = albedoAt(m, wo);
   const GlassMultiple glass = glassMultiple(m, wo);
-  const double passed = coatTransmission(m, wo);
+  const double passed = coatTransmission(m, wo).y; // green for all channels
   const double below = luminance(m.baseColor) * passed;
   const double facets = luminance(m.f0 * albedo.x + m.f90 * albedo.y) +
                         glassShare(m) * (luminance(m.glassF0 * albedo.x + m.dielectricF90 * albedo.y) + below);
@@ -174,9 +212,24 @@ glm::dvec3 reflectedAtFacet(const MetallicRoughness& m, double cosine) {
   return facetReflectance(m, cosine) + glassShare(m) * glassReflectance(m, cosine);
 }
 
+glm::dvec3 bareGlassReflectance(const MetallicRoughness& m, double cosine) {
+  const double exact = fresnelDielectric(cosine, m.innerIor / m.outerIor);
+  if (exact >= 1) return glm::dvec3(1); // total internal reflection, or grazing
+  const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
+  return glm::mix(m.glassF0, glm::dvec3(m.glassF90), std::max(0.0, (exact - normal) / (1 - normal)));
+}
+
+glm::dvec3 glassFilm(const MetallicRoughness& m, double cosine) {
+  const double sineOutside = std::sqrt(1 - cosine * cosine) * std::max(m.outerIor, 1.0); // Snell's law
+  return filmReflectance(m.film, std::sqrt(std::max(0.0, 1 - sineOutside * sineOutside)), m.glassF0);
+}
+
+// The rest of what glass reflects: of its brightest channel, of a film channel by channel.
 glm::dvec3 transmittedAtFacet(const MetallicRoughness& m, double cosine) {
-  const glm::dvec3 reflectance = glassReflectance(m, cosine);
-  return glassShare(m) * (1 - std::max({reflectance.x, reflectance.y, reflectance.z})) * m.baseColor;
+  const glm::dvec3 bare = bareGlassReflectance(m, cosine);
+  glm::dvec3 passed(1 - std::max({bare.x, bare.y, bare.z}));
+  if (m.film.amount > 0) passed = glm::mix(passed, 1.0 - glassFilm(m, cosine), m.film.amount);
+  return glassShare(m) * passed * m.baseColor;
 }
 
 double reflectionShare(const MetallicRoughness& m, double cosine) {
@@ -271,14 +324,8 @@ MetallicRoughness withTransmission(MetallicRoughness m, double transmission, dou
 }
 
 glm::dvec3 glassReflectance(const MetallicRoughness& m, double cosine) {
-  const double exact = fresnelDielectric(cosine, m.innerIor / m.outerIor);
-  if (exact >= 1) return glm::dvec3(1); // total internal reflection, or grazing
-  const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
-  const glm::dvec3 bare = glm::mix(m.glassF0, glm::dvec3(m.glassF90), std::max(0.0, (exact - normal) / (1 - normal)));
-  if (m.film.amount == 0) return bare;
-  const double sineOutside = std::sqrt(1 - cosine * cosine) * std::max(m.outerIor, 1.0); // Snell's law
-  const double outside = std::sqrt(std::max(0.0, 1 - sineOutside * sineOutside));
-  return glm::mix(bare, filmReflectance(m.film, outside, m.glassF0), m.film.amount);
+  const glm::dvec3 bare = bareGlassReflectance(m, cosine);
+  return m.film.amount == 0 ? bare : glm::mix(bare, glassFilm(m, cosine), m.film.amount);
 }
 
 MetallicRoughness withDiffuseTransmission(MetallicRoughness m, double share, const glm::dvec3& color, double eta) {
@@ -306,8 +353,10 @@ MetallicRoughness withConductor(MetallicRoughness m, const glm::dvec3& n, const 
 
 MetallicRoughness withFilm(MetallicRoughness m, const ThinFilm& film) {
   m.film = film;
-  m.dielectricF0 = std::lerp(m.dielectricF0, std::max(m.dielectricF0, filmBound(film, m.glassF0)), film.amount);
-  m.dielectricF90 = std::lerp(m.dielectricF90, 1.0, film.amount);
+  if (isBounded(m)) {
+    m.dielectricF0 = std::lerp(m.dielectricF0, std::max(m.dielectricF0, filmBound(film, m.glassF0)), film.amount);
+    m.dielectricF90 = std::lerp(m.dielectricF90, 1.0, film.amount);
+  }
   m.f90 = glm::mix(m.f90, glm::dvec3(m.metallic + (1 - m.metallic) * (1 - m.transmission)), film.amount);
   m.f0 = facetReflectance(m, 1);
   return m;
@@ -355,8 +404,29 @@ double coatMultipleReflectance(const MetallicRoughness& m) {
   return multipleReflectance(m, glm::dvec3(m.dielectricF0), glm::dvec3(m.dielectricF90)).x;
 }
 
-double meanCoatTransmission(const MetallicRoughness& m) {
-  return std::max(1 - coatAlbedo(m, albedoMean(m)), double(gpu::kMinCoatTransmission));
+glm::dvec3 coatReflected(const MetallicRoughness& m, double mu) {
+  const glm::dvec2 albedo = albedoAt(m, {std::sqrt(1 - mu * mu), 0, mu});
+  const double bare = m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y;
+  if (m.film.amount == 0 || isBounded(m)) return glm::dvec3(bare);
+  return glm::mix(glm::dvec3(bare), filmAlbedo(m, mu), m.film.amount);
+}
+
+glm::dvec3 coatMeanReflected(const MetallicRoughness& m) {
+  const glm::dvec2 albedo = albedoMean(m);
+  const double bare = m.dielectricF0 * albedo.x + m.dielectricF90 * albedo.y;
+  if (m.film.amount == 0 || isBounded(m)) return glm::dvec3(bare);
+  glm::dvec3 mean(0);
+  const int steps = 200;
+  for (int i = 0; i < steps; ++i) { // 2 mu dmu
+    const double root = (i + 0.5) / steps;
+    mean += filmAlbedo(m, root * root) * (4 * root * root * root / steps);
+  }
+  return glm::mix(glm::dvec3(bare), mean, m.film.amount);
+}
+
+glm::dvec3 meanCoatTransmission(const MetallicRoughness& m) {
+  const double between = coatMultipleReflectance(m) * lost(m, albedoMean(m));
+  return glm::max(1.0 - coatMeanReflected(m) - between, glm::dvec3(double(gpu::kMinCoatTransmission)));
 }
 
 double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal) {

@@ -77,8 +77,14 @@ struct BsdfSample {
 /// Reflectance of scattering between the facets of the dielectric coat over the diffuse lobe.
 [[nodiscard]] double coatMultipleReflectance(const MetallicRoughness& m);
 
+/// What single reflections by the coat over the diffuse lobe reflect of light at cosine mu, by channel.
+[[nodiscard]] glm::dvec3 coatReflected(const MetallicRoughness& m, double mu);
+
+/// Its cosine-weighted mean.
+[[nodiscard]] glm::dvec3 coatMeanReflected(const MetallicRoughness& m);
+
 /// Mean share of light that passes the dielectric coat over the diffuse lobe.
-[[nodiscard]] double meanCoatTransmission(const MetallicRoughness& m);
+[[nodiscard]] glm::dvec3 meanCoatTransmission(const MetallicRoughness& m);
 
 /// Density of sampleBsdf's continuous lobes per steradian of wi, with their selection probabilities.
 [[nodiscard]] double pdfBsdf(const MetallicRoughness& m, const glm::dvec3& woLocal, const glm::dvec3& wiLocal);

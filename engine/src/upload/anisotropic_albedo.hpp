@@ -23,7 +23,7 @@ struct AnisotropicSurface {
 /// Items of the surface's table.
 [[nodiscard]] uint32_t anisotropicAlbedoSize(const AnisotropicSurface& surface);
 
-/// The integrals (A, B) of ggxAlbedoTable for anisotropic facets, laid out as shared/bsdf_constants.h says. One point
+/// The integrals (A, B) of facetAlbedoTable for anisotropic facets, laid out as shared/bsdf_constants.h says. One point
 /// of roughness and strength takes about 0.02 s; ranges of both, for a material with textures of both, 2 s of one core.
 /// Computed at the first call and kept.
 [[nodiscard]] const std::vector<glm::vec2>& anisotropicAlbedoTable(const AnisotropicSurface& surface,

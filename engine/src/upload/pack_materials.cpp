@@ -2,6 +2,7 @@
 
 #include "scene/medium.hpp"
 #include "shared/bsdf_constants.h"
+#include "upload/film_albedo.hpp"
 #include "upload/glass_loss.hpp"
 
 #include <algorithm>
@@ -73,6 +74,7 @@ private:
     record.iridescenceIor = iridescence.ior;
     record.iridescenceThicknessMinimum = iridescence.thicknessMinimum;
     record.iridescenceThicknessMaximum = iridescence.thicknessMaximum;
+    record.filmAlbedo = filmAlbedo(material);
     record.conductorN = material.conductor.n;
     record.conductorK = material.conductor.k;
     record.iridescenceSlot = slot(iridescence.texture, false);
@@ -135,12 +137,36 @@ private:
     return first;
   }
 
+  // Where the table of its dielectric under a film begins. It is of one color of facets without a direction.
+  uint32_t filmAlbedo(const Material& material) {
+    const Iridescence& film = material.iridescence;
+    const bool metal = material.metallic == 1 && !material.metallicRoughnessTexture.present();
+    const bool colorVaries = material.specularTexture.present() || material.specularColorTexture.present() ||
+                             (isDispersive(material) && material.transmission.factor > 0);
+    if (film.factor == 0 || metal || colorVaries || material.anisotropy.strength > 0) return gpu::kInvalidIndex;
+    const float amplitude = (material.ior - 1) / (material.ior + 1);
+    const float roughness = material.roughness;
+    const auto [thinnest, thickest] = std::minmax(film.thicknessMinimum, film.thicknessMaximum);
+    const FilmSurface surface{
+        .f0 = glm::min(amplitude * amplitude * material.specularColor, glm::vec3(1)) * material.specular,
+        .ior = film.ior,
+        .thickness = film.thicknessTexture.present() ? glm::vec2(thinnest, thickest) : glm::vec2(film.thicknessMaximum),
+        .roughness = {material.metallicRoughnessTexture.present() ? 0 : roughness, roughness}};
+    uint32_t first = 0;
+    for (const FilmSurface& known : packed_.tables.films) {
+      if (known == surface) return first;
+      first += filmAlbedoSize(known);
+    }
+    packed_.tables.films.push_back(surface);
+    return first;
+  }
+
   // Where the table of exact reflectance for the material's index begins, behind the one that all share.
   uint32_t exactAlbedo(const Material& material) {
     std::vector<float>& iors = packed_.tables.opaqueIors;
     auto found = std::find(iors.begin(), iors.end(), material.ior);
     if (found == iors.end()) found = iors.insert(found, material.ior);
-    return static_cast<uint32_t>(found - iors.begin() + 1) * gpu::kGgxAlbedoSize;
+    return static_cast<uint32_t>(found - iors.begin() + 1) * gpu::kFacetAlbedoSize;
   }
 
   uint32_t slot(const TextureRef& use, bool srgb) {

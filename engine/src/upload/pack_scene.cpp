@@ -48,6 +48,9 @@ PackedScene packScene(const Scene& scene) {
   packed.tables.facets = packed.features.has(Feature::kHasSpecular);
   packed.tables.clearcoat = packed.features.has(Feature::kHasClearcoat);
   packed.tables.sheen = packed.features.has(Feature::kHasSheen);
+  packed.tables.coatedSheen = std::any_of(packed.materials.begin(), packed.materials.end(), [](const auto& material) {
+    return material.clearcoat > 0 && material.sheenColor != glm::vec3(0);
+  });
   removeUnfound(packed);
   return packed;
 }

@@ -1,6 +1,6 @@
 #include "upload/scattering_tables.hpp"
 
-#include "upload/ggx_albedo.hpp"
+#include "upload/facet_albedo.hpp"
 #include "upload/layer_tables.hpp"
 
 namespace isophote {
@@ -12,7 +12,7 @@ template <class T> void append(std::vector<T>& all, const std::vector<T>& more) 
 
 std::vector<glm::vec2> facetAlbedos(const TableNeeds& needs, const FacetModel& model, Fresnel fresnel) {
   std::vector<glm::vec2> all;
-  if (needs.facets) all = ggxAlbedoTable(model);
+  if (needs.facets) all = facetAlbedoTable(model);
   if (fresnel != Fresnel::Exact) return all;
   for (const float ior : needs.opaqueIors) append(all, exactAlbedoTable(model, ior));
   return all;
@@ -29,6 +29,10 @@ ScatteringTables::ScatteringTables(const Device& device, const TableNeeds& needs
   anisotropicAlbedo_ = upload(device, anisotropic, "tables.anisotropicAlbedo");
   if (needs.clearcoat) clearcoat_ = upload(device, clearcoatTable(model), "tables.clearcoat");
   if (needs.sheen) sheen_ = upload(device, sheenTable(model), "tables.sheen");
+  if (needs.coatedSheen) coatedSheen_ = upload(device, coatedSheenTable(model), "tables.coatedSheen");
+  std::vector<glm::vec3> films;
+  for (const FilmSurface& surface : needs.films) append(films, filmAlbedoTable(surface, model));
+  filmAlbedo_ = upload(device, films, "tables.filmAlbedo");
   if (!settings.multipleScattering) return;
   std::vector<glm::vec2> losses;
   for (const GlassSurface& glass : needs.glass) {
@@ -38,11 +42,13 @@ ScatteringTables::ScatteringTables(const Device& device, const TableNeeds& needs
 }
 
 void ScatteringTables::writeTo(gpu::SceneView& view) const {
-  view.ggxAlbedo = facetAlbedo_;
+  view.facetAlbedo = facetAlbedo_;
   view.anisotropicAlbedo = anisotropicAlbedo_;
   view.glassLoss = glassLoss_;
   view.clearcoatTable = clearcoat_;
   view.sheenTable = sheen_;
+  view.coatedSheenTable = coatedSheen_;
+  view.filmAlbedo = filmAlbedo_;
 }
 
 template <class T>

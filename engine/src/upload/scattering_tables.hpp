@@ -7,6 +7,7 @@
 #include "isophote/settings.hpp"
 #include "shared/scene_view.h"
 #include "upload/anisotropic_albedo.hpp"
+#include "upload/film_albedo.hpp"
 #include "upload/glass_loss.hpp"
 
 namespace isophote {
@@ -16,8 +17,10 @@ struct TableNeeds {
   bool facets = false;
   bool clearcoat = false;
   bool sheen = false;
-  std::vector<float> opaqueIors; ///< of dielectric facets: MaterialRecord::exactAlbedo, from kGgxAlbedoSize on
+  bool coatedSheen = false;      ///< both on one material
+  std::vector<float> opaqueIors; ///< of dielectric facets: MaterialRecord::exactAlbedo, from kFacetAlbedoSize on
   std::vector<AnisotropicSurface> anisotropic; ///< one table each: MaterialRecord::anisotropicAlbedo
+  std::vector<FilmSurface> films;              ///< one table each: MaterialRecord::filmAlbedo
   std::vector<GlassSurface> glass; ///< one loss table each, 2 kGlassLossHalf items: MaterialRecord::glassLoss
 };
 
@@ -38,6 +41,8 @@ private:
   gpu::Address glassLoss_ = 0;
   gpu::Address clearcoat_ = 0;
   gpu::Address sheen_ = 0;
+  gpu::Address coatedSheen_ = 0;
+  gpu::Address filmAlbedo_ = 0;
   std::vector<gpu::Buffer> buffers_;
 };
 

@@ -1,4 +1,4 @@
-#include "upload/ggx_albedo.hpp"
+#include "upload/facet_albedo.hpp"
 
 #include <algorithm>
 #include <array>
@@ -42,18 +42,18 @@ glm::dvec2 directionalAlbedo(const Facets& facets, double mu, double exactIor) {
 }
 
 double columnMu(uint32_t column) {
-  const double root = column / double(gpu::kGgxAlbedoMuCount - 1);
+  const double root = column / double(gpu::kFacetAlbedoMuCount - 1);
   return root * root;
 }
 
 std::vector<glm::vec2> computeTable(const FacetModel& model, double exactIor) {
   std::vector<glm::vec2> table;
   std::vector<glm::vec2> means;
-  table.reserve(gpu::kGgxAlbedoSize);
-  for (uint32_t r = 0; r < gpu::kGgxAlbedoRoughnessCount; ++r) {
-    const double roughness = r / double(gpu::kGgxAlbedoRoughnessCount - 1);
-    std::array<glm::dvec2, gpu::kGgxAlbedoMuCount> row;
-    for (uint32_t c = 0; c < gpu::kGgxAlbedoMuCount; ++c) {
+  table.reserve(gpu::kFacetAlbedoSize);
+  for (uint32_t r = 0; r < gpu::kFacetAlbedoRoughnessCount; ++r) {
+    const double roughness = r / double(gpu::kFacetAlbedoRoughnessCount - 1);
+    std::array<glm::dvec2, gpu::kFacetAlbedoMuCount> row;
+    for (uint32_t c = 0; c < gpu::kFacetAlbedoMuCount; ++c) {
       const double mu = columnMu(c);
       const double mirror = grazingShare(mu, exactIor);
       row[c] = r == 0 ? glm::dvec2(1 - mirror, mirror)
@@ -68,13 +68,13 @@ std::vector<glm::vec2> computeTable(const FacetModel& model, double exactIor) {
 
 } // namespace
 
-const std::vector<glm::vec2>& ggxAlbedoTable(const FacetModel& model) {
+const std::vector<glm::vec2>& facetAlbedoTable(const FacetModel& model) {
   static Memo<FacetModel, std::vector<glm::vec2>> tables;
   return tables.get(model, [&] { return computeTable(model, 0); });
 }
 
 const std::vector<glm::vec2>& exactAlbedoTable(const FacetModel& model, float ior) {
-  if (ior < 1) return ggxAlbedoTable(model);
+  if (ior < 1) return facetAlbedoTable(model);
   static Memo<std::pair<FacetModel, float>, std::vector<glm::vec2>> tables;
   return tables.get({model, ior}, [&] { return computeTable(model, double(ior)); });
 }

@@ -1,4 +1,4 @@
-#include "upload/ggx_albedo.hpp"
+#include "upload/facet_albedo.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -13,15 +13,15 @@ using namespace isophote;
 
 namespace {
 
-// The device's lookup, shaders/bsdf/ggx_albedo.glsl, in double.
+// The device's lookup, shaders/bsdf/facet_albedo.glsl, in double.
 glm::dvec2 lookUp(double mu, double alpha) {
   const auto at = [](uint32_t column, uint32_t row) {
-    return glm::dvec2(ggxAlbedoTable()[row * gpu::kGgxAlbedoMuCount + column]);
+    return glm::dvec2(facetAlbedoTable()[row * gpu::kFacetAlbedoMuCount + column]);
   };
-  const double column = std::sqrt(mu) * (gpu::kGgxAlbedoMuCount - 1);
-  const double row = std::sqrt(alpha) * (gpu::kGgxAlbedoRoughnessCount - 1);
-  const uint32_t c = std::min(uint32_t(column), gpu::kGgxAlbedoMuCount - 2);
-  const uint32_t r = std::min(uint32_t(row), gpu::kGgxAlbedoRoughnessCount - 2);
+  const double column = std::sqrt(mu) * (gpu::kFacetAlbedoMuCount - 1);
+  const double row = std::sqrt(alpha) * (gpu::kFacetAlbedoRoughnessCount - 1);
+  const uint32_t c = std::min(uint32_t(column), gpu::kFacetAlbedoMuCount - 2);
+  const uint32_t r = std::min(uint32_t(row), gpu::kFacetAlbedoRoughnessCount - 2);
   return glm::mix(glm::mix(at(c, r), at(c + 1, r), column - c), glm::mix(at(c, r + 1), at(c + 1, r + 1), column - c),
                   row - r);
 }
@@ -46,28 +46,28 @@ WorstError worstError(int count, double muLow, double muHigh, double alphaLow, d
 
 } // namespace
 
-TEST(GgxAlbedo, TableHasTheLayoutThatTheDeviceReads) {
-  const auto& table = ggxAlbedoTable();
-  ASSERT_EQ(table.size(), gpu::kGgxAlbedoMeans + gpu::kGgxAlbedoRoughnessCount);
-  for (uint32_t c = 0; c < gpu::kGgxAlbedoMuCount; ++c) { // roughness 0: the smooth mirror
-    const double root = c / double(gpu::kGgxAlbedoMuCount - 1);
+TEST(FacetAlbedo, TableHasTheLayoutThatTheDeviceReads) {
+  const auto& table = facetAlbedoTable();
+  ASSERT_EQ(table.size(), gpu::kFacetAlbedoMeans + gpu::kFacetAlbedoRoughnessCount);
+  for (uint32_t c = 0; c < gpu::kFacetAlbedoMuCount; ++c) { // roughness 0: the smooth mirror
+    const double root = c / double(gpu::kFacetAlbedoMuCount - 1);
     const double grazing = std::pow(1 - root * root, 5);
     EXPECT_NEAR(double(table[c].x), 1 - grazing, 1e-7);
     EXPECT_NEAR(double(table[c].y), grazing, 1e-7);
   }
   // 2 times the integral of (1 - mu)^5 mu is 2 / 42; linear interpolation over sqrt(mu) moves it by less than 1e-4.
-  EXPECT_NEAR(double(table[gpu::kGgxAlbedoMeans].y), 2.0 / 42, 1e-4);
+  EXPECT_NEAR(double(table[gpu::kFacetAlbedoMeans].y), 2.0 / 42, 1e-4);
 }
 
 // Values: converged double quadrature; the one at (1, 1) is 1 - ln 2.
-TEST(GgxAlbedo, TableHoldsKnownAlbedos) {
+TEST(FacetAlbedo, TableHoldsKnownAlbedos) {
   EXPECT_NEAR(lookUp(1, 1).x + lookUp(1, 1).y, 1 - std::numbers::ln2, 3e-4);
   EXPECT_NEAR(lookUp(1, 0.5).x + lookUp(1, 0.5).y, 0.687848, 5e-4);
   EXPECT_NEAR(lookUp(0.5, 1).x + lookUp(0.5, 1).y, 0.450694, 5e-4);
   EXPECT_NEAR(lookUp(0.1, 0.25).x + lookUp(0.1, 0.25).y, 0.891624, 5e-4);
 }
 
-TEST(GgxAlbedo, InterpolationMatchesQuadrature) {
+TEST(FacetAlbedo, InterpolationMatchesQuadrature) {
   const WorstError ordinary = worstError(150, 0.05, 1, 0.05, 1);
   EXPECT_LT(ordinary.a, 1.2e-3);
   EXPECT_LT(ordinary.b, 6e-4);
@@ -87,10 +87,10 @@ TEST(GgxAlbedo, InterpolationMatchesQuadrature) {
   }
 }
 
-TEST(GgxAlbedo, MeansMatchTheOracle) {
+TEST(FacetAlbedo, MeansMatchTheOracle) {
   for (const uint32_t row : {0u, 8u, 20u, 42u, 63u}) {
-    const double roughness = row / double(gpu::kGgxAlbedoRoughnessCount - 1);
-    const glm::dvec2 mean(ggxAlbedoTable()[gpu::kGgxAlbedoMeans + row]);
+    const double roughness = row / double(gpu::kFacetAlbedoRoughnessCount - 1);
+    const glm::dvec2 mean(facetAlbedoTable()[gpu::kFacetAlbedoMeans + row]);
     const glm::dvec2 expected = oracle::meanAlbedo(roughness * roughness);
     EXPECT_NEAR(mean.x, expected.x, 5e-4) << roughness;
     EXPECT_NEAR(mean.y, expected.y, 5e-4) << roughness;
@@ -99,7 +99,7 @@ TEST(GgxAlbedo, MeansMatchTheOracle) {
 
 // The oracle integrates over another parametrization of the visible normals than the table; a third way, over wi
 // itself.
-TEST(GgxAlbedo, OracleQuadratureMatchesIntegrationOverDirections) {
+TEST(FacetAlbedo, OracleQuadratureMatchesIntegrationOverDirections) {
   for (const auto& [mu, alpha] : {std::pair(1.0, 0.5), {0.5, 0.5}, {0.3, 1.0}, {0.7, 0.3}}) {
     const glm::dvec3 wo(std::sqrt(1 - mu * mu), 0, mu);
     const int side = 600;
@@ -125,7 +125,7 @@ TEST(GgxAlbedo, OracleQuadratureMatchesIntegrationOverDirections) {
 
 // Tables of the other distributions, masking and reflectance, at their nodes and between, by normals of D cos instead
 // of GGX's visible ones.
-TEST(GgxAlbedo, TablesOfAllFacetsMatchQuadrature) {
+TEST(FacetAlbedo, TablesOfAllFacetsMatchQuadrature) {
   struct Choice {
     FacetModel model;
     float ior;
@@ -135,17 +135,17 @@ TEST(GgxAlbedo, TablesOfAllFacetsMatchQuadrature) {
                             {{Ndf::BlinnPhong, Masking::Separable}, 0}};
   for (const Choice& choice : choices) {
     const std::vector<glm::vec2>& table = exactAlbedoTable(choice.model, choice.ior);
-    ASSERT_EQ(table.size(), gpu::kGgxAlbedoSize);
+    ASSERT_EQ(table.size(), gpu::kFacetAlbedoSize);
     double worst = 0;
     for (const uint32_t row : {13u, 45u}) {
       for (const uint32_t column : {15u, 32u, 50u, 63u}) {
-        const double roughness = row / double(gpu::kGgxAlbedoRoughnessCount - 1);
-        const double root = column / double(gpu::kGgxAlbedoMuCount - 1);
+        const double roughness = row / double(gpu::kFacetAlbedoRoughnessCount - 1);
+        const double root = column / double(gpu::kFacetAlbedoMuCount - 1);
         const double mu = root * root;
         const glm::dvec2 expected =
             oracle::facetAlbedo({choice.model.ndf, choice.model.masking}, {std::sqrt(1 - mu * mu), 0, mu},
                                 glm::dvec2(roughness * roughness), 120, double(choice.ior));
-        const glm::dvec2 error = glm::abs(glm::dvec2(table[row * gpu::kGgxAlbedoMuCount + column]) - expected);
+        const glm::dvec2 error = glm::abs(glm::dvec2(table[row * gpu::kFacetAlbedoMuCount + column]) - expected);
         worst = std::max({worst, error.x, error.y});
       }
     }

@@ -1,4 +1,4 @@
-// The table behind shaders/bsdf/ggx_albedo.glsl.
+// The table behind shaders/bsdf/facet_albedo.glsl.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,11 @@ namespace isophote {
 ///
 /// A and B are the directional albedo's parts with Fresnel weights 1 - (1-c)^5 and (1-c)^5, c the cosine at the half
 /// vector. Roughness 0 is the smooth mirror: A = 1 - (1-mu)^5, B = (1-mu)^5.
-[[nodiscard]] const std::vector<glm::vec2>& ggxAlbedoTable(const FacetModel& model = {});
+[[nodiscard]] const std::vector<glm::vec2>& facetAlbedoTable(const FacetModel& model = {});
 
 /// The same with the way that the exact reflectance of index `ior` goes from normal to grazing, (F - R) / (1 - R),
 /// instead of (1-c)^5.
-/// @param ior at least 1; below, ggxAlbedoTable
+/// @param ior at least 1; below, facetAlbedoTable
 [[nodiscard]] const std::vector<glm::vec2>& exactAlbedoTable(const FacetModel& model, float ior);
 
 } // namespace isophote
