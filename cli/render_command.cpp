@@ -232,11 +232,11 @@ int runRender(const RenderOptions& options) {
     printError("interrupted before the first sample; nothing is written");
     return kInterrupted;
   }
-  const StopRule rule = options.stopRule();
+  report.rule = options.stopRule();
   {
     ProgressLine progress(options.quiet);
-    CheckpointKeeper checkpoints(options.checkpoint, sampleIdentity(report, rule.samples.first));
-    report.result = renderUntil(tracer, report.view.camera, film, rule, progress, &checkpoints);
+    CheckpointKeeper checkpoints(options.checkpoint, sampleIdentity(report, report.rule.samples.first));
+    report.result = renderUntil(tracer, report.view.camera, film, report.rule, progress, &checkpoints);
   }
   report.statistics = tracer.statistics();
   report.features = tracer.features();
@@ -245,7 +245,7 @@ int runRender(const RenderOptions& options) {
 
   watch.lap();
   Image image = film.resolve();
-  countSamples(image, rule.samples, report);
+  countSamples(image, report.rule.samples, report);
   accountForClamp(image, report);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);

@@ -176,7 +176,7 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
 }
 
 StopRule RenderOptions::stopRule() const {
-  StopRule rule{.samples = {0, kMaxSamples}, .targetError = targetError, .confidence = confidence, .seconds = seconds};
+  StopRule rule{.samples = {0, kMaxSamples}, .confidence = confidence, .target = targetError, .seconds = seconds};
   if (sampleRange) {
     rule.samples = *sampleRange;
   } else if (samplesPerPixel) {

@@ -26,6 +26,27 @@ Json errorJson(const ErrorEstimate& error) {
   return json;
 }
 
+Json intervalJson(const Interval& interval) { return {interval.value, interval.lower, interval.upper}; }
+
+/// The target error and each look at the error, with the forecast that was made then: [value, lower, upper].
+Json targetJson(const StopRule& rule, const RenderResult& result) {
+  if (!rule.target) return nullptr;
+  Json looks = Json::array();
+  for (const Look& look : result.looks) {
+    Json entry = {{"spp", look.samples}, {"seconds", look.seconds}};
+    if (look.error.known) {
+      entry["error"] = intervalJson({look.error.value, look.error.lower, look.error.upper});
+      entry["forecast_spp"] = intervalJson(look.samplesToTarget);
+      entry["forecast_seconds"] = intervalJson(look.secondsToTarget);
+    }
+    looks.push_back(entry);
+  }
+  return {{"error", *rule.target},
+          {"confidence", rule.confidence},
+          {"reached", reached(rule.errorTarget(), result.error)},
+          {"looks", looks}};
+}
+
 Json kernelsJson(const RenderStatistics& statistics) {
   Json list = Json::array();
   for (const KernelStatistics& kernel : statistics.kernels) {
@@ -168,6 +189,7 @@ Json statsJson(const RenderReport& report) {
             {"sah_cost", scene.sahCost},
             {"max_depth", scene.bvhMaxDepth}}},
           {"error", errorJson(report.result.error)},
+          {"target", targetJson(report.rule, report.result)},
           {"bias", ledgerJson(report)},
           {"status", statusJson(render.status)},
           {"figure_of_merit", figureOfMerit(report.result)},

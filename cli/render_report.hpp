@@ -37,6 +37,7 @@ struct RenderReport {
   FeatureSet features;
   SceneStatistics sceneStatistics;
   RenderStatistics statistics;
+  StopRule rule;
   RenderResult result;
   SampleRange samples;          ///< that were started for at least one pixel
   uint32_t samplesPerPixel = 0; ///< that every pixel has at least
