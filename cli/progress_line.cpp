@@ -21,7 +21,8 @@ std::string progressText(const RenderState& state) {
   std::string text = fmt::format("{:3.0f}%  {} elapsed", std::floor(100 * fraction), clockText(state.seconds));
   const auto left = [&](double end) { return clockText(end - state.seconds); };
   if (state.ends) {
-    text += fmt::format(", {} left ({} to {})", left(state.ends->value), left(state.ends->lower), left(state.ends->upper));
+    text +=
+        fmt::format(", {} left ({} to {})", left(state.ends->value), left(state.ends->lower), left(state.ends->upper));
   } else if (fraction > 0.001) {
     text += fmt::format(", {} left", clockText(state.seconds * (1 - fraction) / fraction));
   }

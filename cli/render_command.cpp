@@ -14,6 +14,7 @@
 #include "interrupt.hpp"
 #include "isophote/error.hpp"
 #include "render_options.hpp"
+#include "render_plan.hpp"
 #include "render_report.hpp"
 #include "scene_files.hpp"
 
@@ -23,6 +24,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   isophote render scene.glb -o image.exr -o image.png
   isophote render scene.glb -o image.exr --target-error 2% --time 600     whichever comes first; exit code 8 if it is the time
+  isophote render scene.glb --target-error 2% --plan                      how long that will take, before it begins
   isophote render model.glb -o image.png --env sky.hdr --env-rotation 90 --exposure -1 --tonemap agx
   isophote render model.glb -o image.png --sky 40,120 --exposure -13      a clear day
   isophote render model.glb -o image.png --env-color 1,1,1                for an asset without lights
@@ -50,6 +52,7 @@ bool isPng(const std::string& file) { return std::filesystem::path(file).extensi
 
 void checkOutputs(const RenderOptions& options) {
   std::vector<std::string> files = options.outputs;
+  if (files.empty() && !options.plan) throw UsageError("--output is required");
   for (const std::string& file : files) {
     const auto extension = std::filesystem::path(file).extension();
     if (extension != ".exr" && extension != ".png")
@@ -196,6 +199,7 @@ int runRender(const RenderOptions& options) {
   catchInterrupts();
   checkOutputs(options);
   if (options.unbiased) refuseBias(options.settings);
+  if (options.plan) return runPlan(options);
   Stopwatch watch;
   RenderReport report{.scene = options.scene,
                       .settings = options.settings,
@@ -218,10 +222,7 @@ int runRender(const RenderOptions& options) {
   report.sceneStatistics = scene.statistics();
   report.seconds.bvh = report.sceneStatistics.bvhSeconds;
   report.seconds.upload = report.sceneStatistics.packSeconds + report.sceneStatistics.uploadSeconds;
-  Film film(device, {.width = report.view.width,
-                     .height = report.view.height,
-                     .crop = options.crop,
-                     .ledger = options.settings.estimator.clamp < kNoClamp});
+  Film film(device, options.filmOptions(report.view));
   report.crop = film.options().crop;
   report.filmBytes = film.bytes();
   PathTracer tracer(device, scene, options.settings.estimator, options.settings.execution);

@@ -37,10 +37,11 @@ struct ErrorLook {
 /// @param look  of a known error; the forecast of a target that is reached is the look itself
 [[nodiscard]] Interval forecastSamples(const ErrorLook& look, const ErrorTarget& target);
 
-/// The error after `samples` a pixel, of which the look's are some, with a 95% interval.
+/// The error after `samples` a pixel, more or fewer than the look's, with a 95% interval.
 [[nodiscard]] Interval forecastError(const ErrorLook& look, double samples);
 
-/// The estimate that an image of `pixelRatio` times as many pixels, alike in content, would give.
-[[nodiscard]] ErrorEstimate ofLargerImage(const ErrorEstimate& error, double pixelRatio);
+/// The upper end of the interval in an image of `pixelRatio` times as many pixels, alike in content: it lies closer to
+/// the error where there are more of them.
+[[nodiscard]] double upperOfLargerImage(const ErrorEstimate& error, double pixelRatio);
 
 } // namespace isophote

@@ -50,26 +50,24 @@ Interval forecastSamples(const ErrorLook& look, const ErrorTarget& target) {
 }
 
 Interval forecastError(const ErrorLook& look, double samples) {
-  const double growth = std::max(samples / look.samples, 1.0);
+  const double growth = samples / look.samples;
   const double value = look.error.value / std::sqrt(growth);
-  // Beside the forecast's own width, that of the estimate that the samples now held give.
-  const double known = kNormal95 * logDeviation(look.error) / std::sqrt(growth);
-  const double half = 0.5 * logHalfWidth(look.error, growth) + known;
+  // Of the samples that both hold, the estimate's own interval remains.
+  const double common = std::min(growth, 1 / growth);
+  const double known = kNormal95 * logDeviation(look.error) * std::sqrt(common);
+  const double half = 0.5 * logHalfWidth(look.error, 1 / common) + known;
   return {.value = value, .lower = value * std::exp(-half), .upper = value * std::exp(half)};
 }
 
-ErrorEstimate ofLargerImage(const ErrorEstimate& error, double pixelRatio) {
-  if (!(error.lower > 0)) return error;
+double upperOfLargerImage(const ErrorEstimate& error, double pixelRatio) {
+  if (!(error.lower > 0)) return error.upper;
   // image_error.hpp: the logarithm's variance is log1p(spread) / 4, and the spread falls with the number of pixels.
   const double z = estimate::normalDeviation(1 - error.confidence);
   const double deviation = 2 * logDeviation(error);
   const double spread = std::expm1(deviation * deviation) / pixelRatio;
   const double factor = std::exp(0.5 * z * std::sqrt(std::log1p(spread)));
   const double before = error.value / error.lower;
-  ErrorEstimate larger = error;
-  larger.lower = error.value / factor;
-  larger.upper = error.upper / before * factor;
-  return larger;
+  return error.upper / before * factor;
 }
 
 } // namespace isophote
