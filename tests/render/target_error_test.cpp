@@ -82,8 +82,8 @@ TEST(TargetError, IsMetInAtLeast92Of100Runs) {
     credulous.push_back(*run.credulous);
   }
   EXPECT_LE(exceeding(stopped, kTarget), kMostExceeding);
-  // A rule that believed the estimate would be caught.
-  EXPECT_GT(exceeding(credulous, kTarget), 3 * kMostExceeding);
+  // A rule that believed the estimate would fail.
+  EXPECT_GT(exceeding(credulous, kTarget), kMostExceeding);
 }
 
 /// A scene of assets/ as it is rendered 12 pixels wide.
