@@ -127,13 +127,16 @@ double channelMean(const Image& image, const std::string& name) {
   return std::accumulate(channel->values.begin(), channel->values.end(), 0.0) / double(channel->values.size());
 }
 
-/// What clamping took, and what it left.
-void accountForClamp(const Image& image, RenderReport& report) {
-  constexpr const char* kColors[] = {"R", "G", "B"};
-  for (int c = 0; c < 3; ++c) {
-    report.kept[c] = channelMean(image, kColors[c]);
-    report.clamped[c] = channelMean(image, std::string("clamped.") + kColors[c]);
-  }
+/// The mean of three channels: R, G, B after `prefix`.
+glm::dvec3 colorMean(const Image& image, const std::string& prefix) {
+  return {channelMean(image, prefix + "R"), channelMean(image, prefix + "G"), channelMean(image, prefix + "B")};
+}
+
+/// What settings took from the image, and what they left.
+void accountForBias(const Image& image, RenderReport& report) {
+  report.kept = colorMean(image, "");
+  report.clamped = colorMean(image, "clamped.");
+  if (image.find("beyond.R") != nullptr) report.beyond = colorMean(image, "beyond.");
 }
 
 void writeImages(const RenderOptions& options, const Image& image, bool environment) {
@@ -247,7 +250,7 @@ int runRender(const RenderOptions& options) {
   watch.lap();
   Image image = film.resolve();
   countSamples(image, report.rule.samples, report);
-  accountForClamp(image, report);
+  accountForBias(image, report);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);
   if (options.sampleRange) storeSums(image, film.sums()); // a shard, to be merged

@@ -185,7 +185,11 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
 }
 
 FilmOptions RenderOptions::filmOptions(const View& view) const {
-  return {.width = view.width, .height = view.height, .crop = crop, .ledger = settings.estimator.clamp < kNoClamp};
+  return {.width = view.width,
+          .height = view.height,
+          .crop = crop,
+          .clampLedger = settings.estimator.clamp < kNoClamp,
+          .depthLedger = settings.estimator.maxDepth != kUnlimitedDepth && settings.execution.depthLedger};
 }
 
 StopRule RenderOptions::stopRule() const {
