@@ -19,7 +19,13 @@ std::string clockText(double seconds) {
 std::string progressText(const RenderState& state) {
   const double fraction = std::clamp(state.fraction, 0.0, 1.0);
   std::string text = fmt::format("{:3.0f}%  {} elapsed", std::floor(100 * fraction), clockText(state.seconds));
-  if (fraction > 0.001) text += fmt::format(", {} left", clockText(state.seconds * (1 - fraction) / fraction));
+  const auto left = [&](double end) { return clockText(end - state.seconds); };
+  if (state.ends) {
+    text +=
+        fmt::format(", {} left ({} to {})", left(state.ends->value), left(state.ends->lower), left(state.ends->upper));
+  } else if (fraction > 0.001) {
+    text += fmt::format(", {} left", clockText(state.seconds * (1 - fraction) / fraction));
+  }
   if (state.seconds > 0) text += fmt::format(", {:.2f} Mrays/s", state.rays / state.seconds * 1e-6);
   if (state.error.known) text += fmt::format(", error {:.3g}%", 100 * state.error.value);
   return text;

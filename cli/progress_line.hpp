@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "isophote/film.hpp"
+#include "isophote/interval.hpp"
 
 namespace isophote::cli {
 
@@ -14,12 +16,13 @@ struct RenderState {
   double seconds = 0;
   double rays = 0;
   ErrorEstimate error;
+  std::optional<Interval> ends; ///< seconds at the end, where a forecast says more than the fraction
 };
 
 /// `0:12`, `1:02:03`
 [[nodiscard]] std::string clockText(double seconds);
 
-/// `37%  0:12 elapsed, 0:20 left, 4.31 Mrays/s, error 2.4%`
+/// `37%  0:12 elapsed, 0:20 left, 4.31 Mrays/s, error 2.4%`; of a forecast with its interval `0:20 left (0:12 to 0:41)`
 [[nodiscard]] std::string progressText(const RenderState& state);
 
 /// On a terminal one line that is written over about ten times a second, elsewhere a line every few seconds.

@@ -14,6 +14,7 @@
 #include "interrupt.hpp"
 #include "isophote/error.hpp"
 #include "render_options.hpp"
+#include "render_plan.hpp"
 #include "render_report.hpp"
 #include "scene_files.hpp"
 
@@ -23,6 +24,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   isophote render scene.glb -o image.exr -o image.png
   isophote render scene.glb -o image.exr --target-error 2% --time 600     whichever comes first; exit code 8 if it is the time
+  isophote render scene.glb --target-error 2% --plan                      how long that will take, before it begins
   isophote render model.glb -o image.png --env sky.hdr --env-rotation 90 --exposure -1 --tonemap agx
   isophote render model.glb -o image.png --sky 40,120 --exposure -13      a clear day
   isophote render model.glb -o image.png --env-color 1,1,1                for an asset without lights
@@ -50,6 +52,7 @@ bool isPng(const std::string& file) { return std::filesystem::path(file).extensi
 
 void checkOutputs(const RenderOptions& options) {
   std::vector<std::string> files = options.outputs;
+  if (files.empty() && !options.plan) throw UsageError("--output is required");
   for (const std::string& file : files) {
     const auto extension = std::filesystem::path(file).extension();
     if (extension != ".exr" && extension != ".png")
@@ -124,13 +127,16 @@ double channelMean(const Image& image, const std::string& name) {
   return std::accumulate(channel->values.begin(), channel->values.end(), 0.0) / double(channel->values.size());
 }
 
-/// What clamping took, and what it left.
-void accountForClamp(const Image& image, RenderReport& report) {
-  constexpr const char* kColors[] = {"R", "G", "B"};
-  for (int c = 0; c < 3; ++c) {
-    report.kept[c] = channelMean(image, kColors[c]);
-    report.clamped[c] = channelMean(image, std::string("clamped.") + kColors[c]);
-  }
+/// The mean of three channels: R, G, B after `prefix`.
+glm::dvec3 colorMean(const Image& image, const std::string& prefix) {
+  return {channelMean(image, prefix + "R"), channelMean(image, prefix + "G"), channelMean(image, prefix + "B")};
+}
+
+/// What settings took from the image, and what they left.
+void accountForBias(const Image& image, RenderReport& report) {
+  report.kept = colorMean(image, "");
+  report.clamped = colorMean(image, "clamped.");
+  if (image.find("beyond.R") != nullptr) report.beyond = colorMean(image, "beyond.");
 }
 
 void writeImages(const RenderOptions& options, const Image& image, bool environment) {
@@ -196,6 +202,7 @@ int runRender(const RenderOptions& options) {
   catchInterrupts();
   checkOutputs(options);
   if (options.unbiased) refuseBias(options.settings);
+  if (options.plan) return runPlan(options);
   Stopwatch watch;
   RenderReport report{.scene = options.scene,
                       .settings = options.settings,
@@ -218,10 +225,7 @@ int runRender(const RenderOptions& options) {
   report.sceneStatistics = scene.statistics();
   report.seconds.bvh = report.sceneStatistics.bvhSeconds;
   report.seconds.upload = report.sceneStatistics.packSeconds + report.sceneStatistics.uploadSeconds;
-  Film film(device, {.width = report.view.width,
-                     .height = report.view.height,
-                     .crop = options.crop,
-                     .ledger = options.settings.estimator.clamp < kNoClamp});
+  Film film(device, options.filmOptions(report.view));
   report.crop = film.options().crop;
   report.filmBytes = film.bytes();
   PathTracer tracer(device, scene, options.settings.estimator, options.settings.execution);
@@ -232,11 +236,11 @@ int runRender(const RenderOptions& options) {
     printError("interrupted before the first sample; nothing is written");
     return kInterrupted;
   }
-  const StopRule rule = options.stopRule();
+  report.rule = options.stopRule();
   {
     ProgressLine progress(options.quiet);
-    CheckpointKeeper checkpoints(options.checkpoint, sampleIdentity(report, rule.samples.first));
-    report.result = renderUntil(tracer, report.view.camera, film, rule, progress, &checkpoints);
+    CheckpointKeeper checkpoints(options.checkpoint, sampleIdentity(report, report.rule.samples.first));
+    report.result = renderUntil(tracer, report.view.camera, film, report.rule, progress, &checkpoints);
   }
   report.statistics = tracer.statistics();
   report.features = tracer.features();
@@ -245,8 +249,8 @@ int runRender(const RenderOptions& options) {
 
   watch.lap();
   Image image = film.resolve();
-  countSamples(image, rule.samples, report);
-  accountForClamp(image, report);
+  countSamples(image, report.rule.samples, report);
+  accountForBias(image, report);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);
   if (options.sampleRange) storeSums(image, film.sums()); // a shard, to be merged

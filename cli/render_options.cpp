@@ -90,6 +90,16 @@ void addStopFlags(CLI::App& command, RenderOptions& options) {
       [&options](const std::string& text) { options.seconds = parseNumber(text, 1e-3, 1e9); },
       "Stop after this much rendering")
       ->group(kGroup);
+  CLI::Option* plan = command.add_flag(
+      "--plan", options.plan, "Render nothing: say from a pilot of seconds what time, samples and memory it will take");
+  plan->group(kGroup);
+  addValue(
+      command, "--pilot", "SECONDS",
+      [&options](const std::string& text) { options.pilotSeconds = parseNumber(text, 1e-3, 1e6); },
+      "Of the plan's pilot (3); a longer one tells more")
+      ->needs(plan)
+      ->group(kGroup);
+  command.add_flag("--json", options.json, "Print the plan as JSON")->needs(plan)->group(kGroup);
 }
 
 void addCheckpointFlags(CLI::App& command, CheckpointOptions& options) {
@@ -156,7 +166,6 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
       .add_option("-o,--output", options.outputs,
                   "Image to write: .exr (float32, linear, all layers) or .png; repeatable")
       ->type_name("F")
-      ->required()
       ->allow_extra_args(false);
   addImageFlags(command, options);
   addCameraFlags(command, options.camera);
@@ -175,8 +184,16 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
   command.add_flag("--validation", options.validation, "Vulkan validation layers; any message makes the exit code 1");
 }
 
+FilmOptions RenderOptions::filmOptions(const View& view) const {
+  return {.width = view.width,
+          .height = view.height,
+          .crop = crop,
+          .clampLedger = settings.estimator.clamp < kNoClamp,
+          .depthLedger = settings.estimator.maxDepth != kUnlimitedDepth && settings.execution.depthLedger};
+}
+
 StopRule RenderOptions::stopRule() const {
-  StopRule rule{.samples = {0, kMaxSamples}, .targetError = targetError, .confidence = confidence, .seconds = seconds};
+  StopRule rule{.samples = {0, kMaxSamples}, .confidence = confidence, .target = targetError, .seconds = seconds};
   if (sampleRange) {
     rule.samples = *sampleRange;
   } else if (samplesPerPixel) {

@@ -36,6 +36,9 @@ struct RenderOptions {
   ToneMap toneMap = ToneMap::Neutral;
   Transfer transfer = Transfer::Srgb;
   std::string device;
+  bool plan = false; ///< say what the render would take, and no more
+  double pilotSeconds = 3;
+  bool json = false; ///< of the plan
   bool unbiased = false;
   bool quiet = false;
   bool verbose = false;
@@ -43,6 +46,7 @@ struct RenderOptions {
 
   /// 64 samples where nothing else says when to stop.
   [[nodiscard]] StopRule stopRule() const;
+  [[nodiscard]] FilmOptions filmOptions(const View& view) const;
 };
 
 void addRenderFlags(CLI::App& command, RenderOptions& options);

@@ -26,6 +26,27 @@ Json errorJson(const ErrorEstimate& error) {
   return json;
 }
 
+Json intervalJson(const Interval& interval) { return {interval.value, interval.lower, interval.upper}; }
+
+/// The target error and each look at the error, with the forecast that was made then: [value, lower, upper].
+Json targetJson(const StopRule& rule, const RenderResult& result) {
+  if (!rule.target) return nullptr;
+  Json looks = Json::array();
+  for (const Look& look : result.looks) {
+    Json entry = {{"spp", look.samples}, {"seconds", look.seconds}};
+    if (look.error.known) {
+      entry["error"] = intervalJson({look.error.value, look.error.lower, look.error.upper});
+      entry["forecast_spp"] = intervalJson(look.samplesToTarget);
+      entry["forecast_seconds"] = intervalJson(look.secondsToTarget);
+    }
+    looks.push_back(entry);
+  }
+  return {{"error", *rule.target},
+          {"confidence", rule.confidence},
+          {"reached", reached(rule.errorTarget(), result.error)},
+          {"looks", looks}};
+}
+
 Json kernelsJson(const RenderStatistics& statistics) {
   Json list = Json::array();
   for (const KernelStatistics& kernel : statistics.kernels) {
@@ -65,13 +86,15 @@ Json figureOfMerit(const RenderResult& result) {
 /// The settings that bias the image, and the samples that were lost.
 Json ledgerJson(const RenderReport& report) {
   Json ledger = biasJson(report.settings);
-  if (ledger.contains("clamp")) {
-    const glm::dvec3 removed = report.clamped;
-    const double whole = removed.r + removed.g + removed.b + report.kept.r + report.kept.g + report.kept.b;
-    ledger["clamp"]["removed"] = {removed.r, removed.g, removed.b};
-    ledger["clamp"]["removed_share"] = whole > 0 ? (removed.r + removed.g + removed.b) / whole : 0.0;
-    ledger["clamp"]["layer"] = "clamped.{R,G,B}";
-  }
+  const auto sum = [](const glm::dvec3& color) { return color.r + color.g + color.b; };
+  const double whole = sum(report.kept) + sum(report.clamped) + sum(report.beyond.value_or(glm::dvec3(0)));
+  const auto account = [&](Json& entry, const glm::dvec3& removed, const char* layer) {
+    entry["removed"] = {removed.r, removed.g, removed.b};
+    entry["removed_share"] = whole > 0 ? sum(removed) / whole : 0.0;
+    entry["layer"] = layer;
+  };
+  if (ledger.contains("clamp")) account(ledger["clamp"], report.clamped, "clamped.{R,G,B}");
+  if (ledger.contains("max-depth") && report.beyond) account(ledger["max-depth"], *report.beyond, "beyond.{R,G,B}");
   const StatusCounters& status = report.statistics.status;
   const uint64_t samples = report.statistics.primaryRays;
   const uint64_t lost = status.nonFinite + status.negative + status.clipped;
@@ -168,6 +191,7 @@ Json statsJson(const RenderReport& report) {
             {"sah_cost", scene.sahCost},
             {"max_depth", scene.bvhMaxDepth}}},
           {"error", errorJson(report.result.error)},
+          {"target", targetJson(report.rule, report.result)},
           {"bias", ledgerJson(report)},
           {"status", statusJson(render.status)},
           {"figure_of_merit", figureOfMerit(report.result)},

@@ -37,13 +37,15 @@ struct RenderReport {
   FeatureSet features;
   SceneStatistics sceneStatistics;
   RenderStatistics statistics;
+  StopRule rule;
   RenderResult result;
   SampleRange samples;          ///< that were started for at least one pixel
   uint32_t samplesPerPixel = 0; ///< that every pixel has at least
   uint64_t filmBytes = 0;
   PhaseSeconds seconds;
-  glm::dvec3 clamped{0}; ///< mean radiance that the clamp setting removed, R, G, B
-  glm::dvec3 kept{0};    ///< mean radiance of the image
+  glm::dvec3 clamped{0};            ///< mean radiance that the clamp setting removed, R, G, B
+  std::optional<glm::dvec3> beyond; ///< that the depth limit left out, where it was measured
+  glm::dvec3 kept{0};               ///< mean radiance of the image
 };
 
 /// Schema 1.

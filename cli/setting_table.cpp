@@ -154,6 +154,9 @@ std::vector<SettingEntry> makeTable() {
              &X::pathPoolSize, 1u << 22, "auto", uint32_t{0}),
       number({"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup", true}, execution,
              &X::workgroupSize, 1024, "auto", uint32_t{0}),
+      choice({"depth-ledger", "on, off", "on", "on",
+              "with a max-depth, follow one in eight paths beyond it to measure what it leaves out", true},
+             execution, &X::depthLedger, onOff),
       choice({"specialize", "on, off", "on", "on", "kernels without what the scene does not use", true}, execution,
              &X::specialize, onOff),
   };

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "interrupt.hpp"
-#include "shared/film_types.h"
+#include "pace.hpp"
 
 namespace isophote::cli {
 namespace {
@@ -26,23 +26,25 @@ public:
     }
     const Outcome outcome = renderPasses();
     if (checkpoints_ != nullptr) checkpoints_->save(film_, left_, elapsed());
-    return {.outcome = outcome, .seconds = elapsed(), .error = error_};
+    return {.outcome = outcome, .seconds = elapsed(), .error = error_, .looks = std::move(looks_)};
   }
 
 private:
   Outcome renderPasses() {
-    const Outcome ended = rule_.targetError ? Outcome::BudgetEnded : Outcome::Completed;
+    const Outcome ended = rule_.target ? Outcome::BudgetEnded : Outcome::Completed;
     uint32_t next = rule_.samples.first;
     while (next < rule_.samples.last) {
-      const uint32_t end = next + passLength(next);
+      const uint32_t end = passEnd(next);
       if (left_.first < end) {
         const bool finished = renderPass({std::max(next, left_.first), end, left_.begun});
         error_ = film_.error(rule_.confidence);
         if (interrupted()) return Outcome::Interrupted;
+        if (!finished) return targetReached() ? Outcome::Completed : ended;
+        look(end);
         if (targetReached()) return Outcome::Completed;
-        if (!finished) return ended;
       } else if (left_.first == end) { // where a checkpoint was written between passes
         error_ = film_.error(rule_.confidence);
+        look(end);
         if (targetReached()) return Outcome::Completed;
       }
       next = end;
@@ -51,12 +53,30 @@ private:
     return ended;
   }
 
-  [[nodiscard]] uint32_t passLength(uint32_t next) const {
-    const uint32_t left = rule_.samples.last - next;
-    if (!rule_.targetError) return left;
-    const uint32_t done = next - rule_.samples.first;
-    const uint32_t rounds = std::max(1u, done / 4 / gpu::kReplicateCount);
-    return std::min(left, rounds * gpu::kReplicateCount);
+  [[nodiscard]] uint32_t passEnd(uint32_t next) const {
+    if (!rule_.target) return rule_.samples.last;
+    const uint64_t end = rule_.samples.first + nextLook(next - rule_.samples.first);
+    return static_cast<uint32_t>(std::min<uint64_t>(end, rule_.samples.last));
+  }
+
+  void look(uint32_t end) {
+    if (!rule_.target) return;
+    Look look{.samples = end - rule_.samples.first, .seconds = elapsed(), .error = error_};
+    if (error_.known) {
+      look.samplesToTarget = forecastSamples({double(look.samples), error_}, rule_.errorTarget());
+      look.secondsToTarget = secondsAt(look.samplesToTarget, look.samples);
+    }
+    looks_.push_back(look);
+  }
+
+  /// Of rendering, when `samples` a pixel are done, of which `done` are now.
+  [[nodiscard]] Interval secondsAt(const Interval& samples, double done) const {
+    const double now = elapsed();
+    if (!(samples.value > done) || !pace_.known()) return {now, now, now};
+    const double missing = samples.value - done;
+    const Interval more = {missing, std::clamp(samples.lower - done, 0.01 * missing, missing), samples.upper - done};
+    const Interval seconds = product(more, pace_.secondsPerSample());
+    return {now + seconds.value, now + seconds.lower, now + seconds.upper};
   }
 
   /// Returns false where the time or the user ended it.
@@ -78,7 +98,9 @@ private:
       if (progress_.due()) showProgress(pass, progress);
       return true;
     };
+    const double begun = elapsed();
     const bool finished = tracer_.render(camera_, film_, pass, onProgress);
+    if (finished && pass.begun == 0) pace_.add(pass.last - pass.first, elapsed() - begun);
     const RenderStatistics statistics = tracer_.statistics();
     raysBefore_ = static_cast<double>(statistics.primaryRays + statistics.bounceRays + statistics.shadowRays);
     return finished;
@@ -86,26 +108,25 @@ private:
 
   void showProgress(SampleRange pass, const Progress& progress) {
     const double done = pass.first - rule_.samples.first + progress.fraction * (pass.last - pass.first);
-    double fraction = done / (rule_.samples.last - rule_.samples.first);
-    if (rule_.seconds) fraction = std::max(fraction, elapsed() / *rule_.seconds);
     if (secondsSince(errorAt_) > 1) { // costs a pass over the film
       error_ = film_.error(rule_.confidence);
       errorAt_ = Clock::now();
     }
-    // Errors fall as the square root of the work.
-    if (rule_.targetError && error_.known) {
-      const double share = *rule_.targetError / std::max(error_.upper, *rule_.targetError);
-      fraction = std::max(fraction, std::min(share * share, 0.99));
+    RenderState state{.seconds = elapsed(), .rays = raysBefore_ + static_cast<double>(progress.rays), .error = error_};
+    state.fraction = done / (rule_.samples.last - rule_.samples.first);
+    if (rule_.seconds) state.fraction = std::max(state.fraction, elapsed() / *rule_.seconds);
+    if (rule_.target && error_.known && done > 0) {
+      const Interval samples = forecastSamples({done, error_}, rule_.errorTarget());
+      const double share = std::min(done / samples.value, 0.99);
+      if (share > state.fraction) {
+        state.fraction = share;
+        if (pace_.known()) state.ends = secondsAt(samples, done);
+      }
     }
-    progress_.show({.fraction = fraction,
-                    .seconds = elapsed(),
-                    .rays = raysBefore_ + static_cast<double>(progress.rays),
-                    .error = error_});
+    progress_.show(state);
   }
 
-  [[nodiscard]] bool targetReached() const {
-    return rule_.targetError && error_.known && error_.upper <= *rule_.targetError;
-  }
+  [[nodiscard]] bool targetReached() const { return rule_.target && reached(rule_.errorTarget(), error_); }
   [[nodiscard]] bool timeUp() const { return rule_.seconds && elapsed() >= *rule_.seconds; }
   static double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -124,6 +145,8 @@ private:
   Clock::time_point start_ = Clock::now();
   Clock::time_point errorAt_ = start_;
   ErrorEstimate error_;
+  std::vector<Look> looks_;
+  Pace pace_;
   double raysBefore_ = 0; ///< of earlier passes
   std::optional<double> compileSeconds_;
 };

@@ -50,5 +50,6 @@ void main() {
   }
   if (kHasTransmission) InteriorRef(pc.interiors).items[slot] = InteriorState(1.0, 0u);
   if (kStraightShadows) StraightRef(pc.straight).items[slot] = StraightState(0.0, kStraightNone);
+  if (kDepthLedger != 0u) BeyondRef(render.view.beyondPaths).items[slot].reached = 0u;
   pushSlot(kQueueRay, slot);
 }

@@ -50,7 +50,7 @@ void sampleDirectLight(const SceneRef scene, const vec3 p, const vec3 wo, const 
 // Scatters at p; false where the path ends.
 bool scatter(const SceneRef scene, const vec3 p, const vec3 wo, const float g, const uint slot, const SampleKey key,
              inout PathState path) {
-  if (path.depth >= RenderRef(pc.render).view.maxDepth) return false;
+  if (!scattersHere(slot, path)) return false;
   const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
   if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
     sampleDirectLight(scene, p, wo, g, key, pair, slot, path.beta);

@@ -184,12 +184,12 @@ void main() {
     path.hit = 1u;
     addAovs(render, path, material.baseColor, ns, surface.p);
   }
-  bool alive = path.depth < render.view.maxDepth;
+  bool alive = false;
   if (kHasUnlit && material.unlit) {
     path.radiance += path.beta * material.baseColor;
-    alive = false;
   } else {
     path.radiance += path.beta * emissionAt(scene, surface, ray, path, slot);
+    alive = scattersHere(slot, path);
   }
   if (kHasDispersion) path.beta *= kept;
   if (alive) {

@@ -3,6 +3,7 @@
 #define ISOPHOTE_KERNELS_VERTEX_GLSL
 
 #include "kernels/wavefront.glsl"
+#include "sampling/hash.glsl"
 #include "shared/constants.glsl"
 
 // Pairs of random numbers of path vertex d start at kFirstVertexPair + kVertexPairs * d.
@@ -18,11 +19,26 @@ const float kRouletteMaxSurvival = 0.999;
 // Lights that a direction can find.
 const bool kHasSizedLights = kHasEmissiveTriangles || kHasSphereLights || kHasSuns || kHasEnvironment;
 
+/// Whether a path scatters at the vertex it has reached: within the depth limit. Some samples, chosen by a hash of
+/// their own, go on beyond it: what they gather there is not for the image but tells what the limit leaves out.
+bool scattersHere(const uint slot, inout PathState path) {
+  RenderRef render = RenderRef(pc.render);
+  if (path.depth < render.view.maxDepth) return true;
+  if (kDepthLedger == 0u || render.view.beyond == 0ul) return false;
+  if (path.depth > render.view.maxDepth) return true; // it went on before
+  if (pcg4d(uvec4(path.pixel, ~path.sampleIndex, render.view.seed)).x % kBeyondShare != 0u) return false;
+  BeyondRef(render.view.beyondPaths).items[slot] = BeyondState(path.radiance, 1u);
+  path.radiance = vec3(0.0);
+  return true;
+}
+
 /// Russian roulette after a scattering. False: the path ends; else its throughput makes up for those that did.
 ///
 /// @param power  probability of survival before it is limited
 bool survivesRoulette(const float power, const float u, inout PathState path) {
-  if (kRussianRoulette == 0u || path.depth < kRouletteDepth) return true;
+  // Without it nothing but the limit ends a path in a closed room.
+  const bool beyond = kDepthLedger != 0u && path.depth > RenderRef(pc.render).view.maxDepth;
+  if ((kRussianRoulette == 0u && !beyond) || path.depth < kRouletteDepth) return true;
   const float survival = min(power, kRouletteMaxSurvival);
   if (u >= survival) return false;
   path.beta /= survival;

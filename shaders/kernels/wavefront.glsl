@@ -29,7 +29,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InteriorRef 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer StraightRef { StraightState items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ReplicateRef { ReplicateSum items[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer AovRef { AovSum items[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ClampedRef { ClampedSum items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RemovedRef { RemovedSum items[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BeyondRef { BeyondState items[]; };
 
 // Whether shadow rays cross glass, unbent.
 const bool kStraightShadows = kHasTransmission && kShadowTransmission == 1u;

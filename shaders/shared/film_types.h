@@ -32,8 +32,9 @@ struct AovSum {
 };
 ISOPHOTE_CONST uint kAovSampleCount = 64u;
 
-// What EstimatorSettings::clamp took from a pixel's samples, in the units of ReplicateSum.
-struct ClampedSum {
+// Radiance that a setting took from a pixel's samples (EstimatorSettings::clamp, ::maxDepth), in the units of
+// ReplicateSum.
+struct RemovedSum {
   Int64 red;
   Int64 green;
   Int64 blue;

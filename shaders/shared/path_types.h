@@ -77,6 +77,13 @@ struct StraightState {
   uint path;         // kStraight*
 };
 
+// Only where paths are followed beyond the depth limit, to measure what it leaves out. One sample in kBeyondShare is.
+struct BeyondState {
+  vec3 kept;    // radiance within the limit, while the path gathers what lies beyond
+  uint reached; // 1: it does
+};
+ISOPHOTE_CONST uint kBeyondShare = 8u;
+
 ISOPHOTE_CONST uint kQueueFree = 0u;
 ISOPHOTE_CONST uint kQueueRay = 1u;
 ISOPHOTE_CONST uint kQueueSurface = 2u;
@@ -139,7 +146,9 @@ struct RenderView {
   Address filterTable; // float[kFilterTableSize]
   Address replicates;  // ReplicateSum[crop pixels * kReplicateCount]
   Address aovs;        // AovSum[crop pixels] or 0
-  Address clamped;     // ClampedSum[crop pixels] or 0
+  Address clamped;     // RemovedSum[crop pixels] or 0
+  Address beyond;      // RemovedSum[crop pixels] or 0: what lies beyond maxDepth
+  Address beyondPaths; // BeyondState[capacity]; with kDepthLedger only
   Uint64 workEnd;
   uvec2 imageSize;
   uvec2 cropOrigin;

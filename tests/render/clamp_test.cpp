@@ -13,7 +13,7 @@ using namespace isophote::test;
 
 Image renderClamped(const Scene& scene, const Camera& camera, float clamp, uint32_t samples, bool ledger = true) {
   const GpuScene gpuScene(gpuDevice(), scene);
-  Film film(gpuDevice(), {.width = 12, .height = 12, .aovs = false, .ledger = ledger});
+  Film film(gpuDevice(), {.width = 12, .height = 12, .aovs = false, .clampLedger = ledger});
   PathTracer tracer(gpuDevice(), gpuScene, {.filter = PixelFilter::Box, .clamp = clamp, .seed = 1});
   tracer.render(camera, film, {0, samples});
   expectHealthy(tracer.statistics());

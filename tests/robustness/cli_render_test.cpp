@@ -92,14 +92,43 @@ TEST_F(CliRender, WritesStatisticsAndPng) {
 TEST_F(CliRender, StopsAtTheTargetErrorAtTheSameSampleEachTime) {
   uint32_t samples[2];
   for (uint32_t& count : samples) {
-    const auto result = render({"--target-error", "30%", "--env-color", "1,1,1", "--quiet"});
+    const auto result =
+        render({"--target-error", "30%", "--env-color", "1,1,1", "--quiet", "--stats", path("stats.json").string()});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     const Image read = readExr(image());
     count = static_cast<uint32_t>(read.find("sampleCount.Y")->values.at(0));
     EXPECT_LE(nlohmann::json::parse(read.attributes.at("isophote.error")).at("interval").at(1), 0.30);
+    const auto target = nlohmann::json::parse(test::readBytes(path("stats.json"))).at("target");
+    EXPECT_EQ(target.at("reached"), true);
+    EXPECT_EQ(target.at("looks").back().at("spp"), count);
+    EXPECT_GE(target.at("looks").front().at("forecast_seconds").at(2), target.at("looks").front().at("seconds"));
   }
   EXPECT_EQ(samples[0], samples[1]);
   EXPECT_EQ(samples[0] % 8, 0u);
+}
+
+TEST_F(CliRender, PlansInsteadOfRendering) {
+  const std::vector<std::string> arguments = {"render",         writeTriangle("triangle.gltf"),
+                                              "--width",        "24",
+                                              "--env-color",    "1,1,1",
+                                              "--plan",         "--json",
+                                              "--pilot",        "0.1",
+                                              "--target-error", "1%",
+                                              "--spp",          "64"};
+  const auto result = run(arguments);
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto plan = nlohmann::json::parse(result.out);
+  for (const char* stop : {"target_error", "spp"}) {
+    for (const char* what : {"spp", "seconds", "error"}) {
+      const auto& interval = plan.at(stop).at(what);
+      EXPECT_GT(interval.at(1), 0) << stop << what;
+      EXPECT_LE(interval.at(1), interval.at(0)) << stop << what;
+      EXPECT_LE(interval.at(0), interval.at(2)) << stop << what;
+    }
+  }
+  EXPECT_EQ(plan.at("spp").at("spp").at(0), 64);
+  EXPECT_GT(plan.at("memory").at("film_bytes"), 24 * 12 * 256);
+  EXPECT_EQ(fileCount(), 2u); // scene and buffer
 }
 
 TEST_F(CliRender, ExitsWithEightWhenTheBudgetEndsFirstAndSavesTheImage) {

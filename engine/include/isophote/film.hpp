@@ -28,9 +28,10 @@ struct ErrorEstimate {
 struct FilmOptions {
   uint32_t width = 0; ///< 1 to 65535
   uint32_t height = 0;
-  PixelRect crop;      ///< empty: the full image
-  bool aovs = true;    ///< albedo, normal, depth and position of the first hit
-  bool ledger = false; ///< what EstimatorSettings::clamp removes, as the channels clamped.{R,G,B}
+  PixelRect crop;           ///< empty: the full image
+  bool aovs = true;         ///< albedo, normal, depth and position of the first hit
+  bool clampLedger = false; ///< what EstimatorSettings::clamp removes, as the channels clamped.{R,G,B}
+  bool depthLedger = false; ///< what EstimatorSettings::maxDepth leaves out, estimated, as beyond.{R,G,B}
 };
 
 /// A film's exact sums on the host: what a checkpoint keeps, and what merging adds.
@@ -41,12 +42,13 @@ struct FilmSums {
   glm::dvec3 worldOrigin{0};         ///< that positions are relative to
   std::vector<std::byte> replicates; ///< ReplicateSum of shared/film_types.h
   std::vector<std::byte> aovs;       ///< AovSum; empty without those layers
-  std::vector<std::byte> clamped;    ///< ClampedSum; empty without the ledger
+  std::vector<std::byte> clamped;    ///< RemovedSum; empty without that ledger
+  std::vector<std::byte> beyond;     ///< likewise
 };
 
 /// Stores the sums in the image as integers, so that images can be merged exactly: one plane for each 32-bit word of
-/// a pixel's ReplicateSums (`sums.replicates.N`), AovSum (`sums.aovs.N`) and ClampedSum (`sums.clamped.N`) and the
-/// attribute `isophote.sums`.
+/// a pixel's ReplicateSums (`sums.replicates.N`), AovSum (`sums.aovs.N`) and RemovedSums (`sums.clamped.N`,
+/// `sums.beyond.N`) and the attribute `isophote.sums`.
 void storeSums(Image& image, const FilmSums& sums);
 
 /// The sums that storeSums stored. @throws UsageError where the image has none

@@ -58,6 +58,7 @@ struct ExecutionSettings {
   uint32_t pathPoolSize = 0;       ///< 0: chosen for the device
   uint32_t workgroupSize = 0;      ///< 0: chosen for the device
   bool specialize = true;          ///< false: the all-features kernels
+  bool depthLedger = true;         ///< with a maxDepth and a film that asks: follow some paths on, to measure its cost
   double submitMilliseconds = 100; ///< aim for the length of one submit
 };
 

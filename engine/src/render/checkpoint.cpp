@@ -50,7 +50,8 @@ Json headOf(const Checkpoint& checkpoint) {
           {"film", filmHead(checkpoint.sums)},
           {"replicate_bytes", checkpoint.sums.replicates.size()},
           {"aov_bytes", checkpoint.sums.aovs.size()},
-          {"clamped_bytes", checkpoint.sums.clamped.size()}};
+          {"clamped_bytes", checkpoint.sums.clamped.size()},
+          {"beyond_bytes", checkpoint.sums.beyond.size()}};
 }
 
 Checkpoint fromHead(const Json& head) {
@@ -89,6 +90,7 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& checkp
   out.write(checkpoint.sums.replicates.data(), checkpoint.sums.replicates.size());
   out.write(checkpoint.sums.aovs.data(), checkpoint.sums.aovs.size());
   out.write(checkpoint.sums.clamped.data(), checkpoint.sums.clamped.size());
+  out.write(checkpoint.sums.beyond.data(), checkpoint.sums.beyond.size());
   out.commit();
 }
 
@@ -113,6 +115,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
     take("replicate_bytes", checkpoint.sums.replicates);
     take("aov_bytes", checkpoint.sums.aovs);
     take("clamped_bytes", checkpoint.sums.clamped);
+    take("beyond_bytes", checkpoint.sums.beyond);
     if (left != 0) throw std::runtime_error("the film is of another size");
     return checkpoint;
   } catch (const std::exception& error) {

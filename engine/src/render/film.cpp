@@ -44,9 +44,9 @@ Film::Film(const Device& device, const FilmOptions& options) : impl_(std::make_u
   if (options.aovs) {
     impl_->aovs = gpu::Buffer(device, pixels * sizeof(gpu::AovSum), gpu::Memory::Device, "film.aovs");
   }
-  if (options.ledger) {
-    impl_->clamped = gpu::Buffer(device, pixels * sizeof(gpu::ClampedSum), gpu::Memory::Device, "film.clamped");
-  }
+  const uint64_t removedBytes = pixels * sizeof(gpu::RemovedSum);
+  if (options.clampLedger) impl_->clamped = gpu::Buffer(device, removedBytes, gpu::Memory::Device, "film.clamped");
+  if (options.depthLedger) impl_->beyond = gpu::Buffer(device, removedBytes, gpu::Memory::Device, "film.beyond");
   impl_->commands.emplace(device, 1, "film");
   clear();
 }
@@ -57,13 +57,16 @@ Film::~Film() = default;
 
 const FilmOptions& Film::options() const { return impl_->options; }
 
-uint64_t Film::bytes() const { return impl_->replicates.bytes() + impl_->aovs.bytes() + impl_->clamped.bytes(); }
+uint64_t Film::bytes() const {
+  return impl_->replicates.bytes() + impl_->aovs.bytes() + impl_->clamped.bytes() + impl_->beyond.bytes();
+}
 
 void Film::clear() {
   impl_->commands->begin();
   impl_->commands->fill(impl_->replicates, 0);
   if (impl_->aovs.bytes() != 0) impl_->commands->fill(impl_->aovs, 0);
   if (impl_->clamped.bytes() != 0) impl_->commands->fill(impl_->clamped, 0);
+  if (impl_->beyond.bytes() != 0) impl_->commands->fill(impl_->beyond, 0);
   impl_->commands->submitAndWait();
   impl_->scale.reset();
 }
@@ -88,6 +91,7 @@ FilmSums Film::sums() const {
   sums.replicates = readAll(*impl_->device, impl_->replicates);
   sums.aovs = readAll(*impl_->device, impl_->aovs);
   sums.clamped = readAll(*impl_->device, impl_->clamped);
+  sums.beyond = readAll(*impl_->device, impl_->beyond);
   return sums;
 }
 
@@ -95,12 +99,13 @@ void Film::restore(const FilmSums& sums) {
   const FilmOptions& own = impl_->options;
   if (sums.options.width != own.width || sums.options.height != own.height || !(sums.options.crop == own.crop) ||
       sums.replicates.size() != impl_->replicates.bytes() || sums.aovs.size() != impl_->aovs.bytes() ||
-      sums.clamped.size() != impl_->clamped.bytes()) {
+      sums.clamped.size() != impl_->clamped.bytes() || sums.beyond.size() != impl_->beyond.bytes()) {
     throw UsageError("the samples are of an image of another size, crop or set of layers");
   }
   gpu::writeBuffer(*impl_->device, impl_->replicates, 0, sums.replicates);
   if (!sums.aovs.empty()) gpu::writeBuffer(*impl_->device, impl_->aovs, 0, sums.aovs);
   if (!sums.clamped.empty()) gpu::writeBuffer(*impl_->device, impl_->clamped, 0, sums.clamped);
+  if (!sums.beyond.empty()) gpu::writeBuffer(*impl_->device, impl_->beyond, 0, sums.beyond);
   impl_->scale.reset();
   if (sums.radiancePerUnit > 0) impl_->scale = {sums.radiancePerUnit, sums.lengthPerUnit, sums.worldOrigin};
 }

@@ -18,7 +18,8 @@ Json filmHead(const FilmSums& sums) {
   return {{"size", {sums.options.width, sums.options.height}},
           {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
           {"aovs", sums.options.aovs},
-          {"ledger", sums.options.ledger},
+          {"clamp_ledger", sums.options.clampLedger},
+          {"depth_ledger", sums.options.depthLedger},
           {"radiance_per_unit", bits(sums.radiancePerUnit)},
           {"length_per_unit", bits(sums.lengthPerUnit)},
           {"world_origin", {bits(sums.worldOrigin.x), bits(sums.worldOrigin.y), bits(sums.worldOrigin.z)}}};
@@ -31,7 +32,8 @@ FilmSums filmFromHead(const Json& head) {
   const Json& crop = head.at("crop");
   sums.options.crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
   sums.options.aovs = head.at("aovs");
-  sums.options.ledger = head.at("ledger");
+  sums.options.clampLedger = head.at("clamp_ledger");
+  sums.options.depthLedger = head.at("depth_ledger");
   sums.radiancePerUnit = fromBits(head.at("radiance_per_unit"));
   sums.lengthPerUnit = fromBits(head.at("length_per_unit"));
   for (int axis = 0; axis < 3; ++axis) {

@@ -28,7 +28,8 @@ struct Film::Impl {
   uint32_t cropHeight = 0;
   gpu::Buffer replicates;
   gpu::Buffer aovs;
-  gpu::Buffer clamped;            ///< null without FilmOptions::ledger
+  gpu::Buffer clamped;            ///< null without FilmOptions::clampLedger
+  gpu::Buffer beyond;             ///< null without FilmOptions::depthLedger
   std::optional<FilmScale> scale; ///< absent while the film holds no samples
   // Made when first asked for.
   mutable gpu::Kernel errorKernel;

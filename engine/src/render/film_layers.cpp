@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kAttribute = "isophote.sums";
 constexpr size_t kReplicateWords = gpu::kReplicateCount * sizeof(gpu::ReplicateSum) / sizeof(uint32_t);
 constexpr size_t kAovWords = sizeof(gpu::AovSum) / sizeof(uint32_t);
-constexpr size_t kClampedWords = sizeof(gpu::ClampedSum) / sizeof(uint32_t);
+constexpr size_t kRemovedWords = sizeof(gpu::RemovedSum) / sizeof(uint32_t);
 
 std::string layerName(const char* group, size_t word) { return fmt::format("sums.{}.{:02}", group, word); }
 
@@ -54,7 +54,8 @@ void storeSums(Image& image, const FilmSums& sums) {
   image.attributes[kAttribute] = filmHead(sums).dump();
   scatter(sums.replicates, kReplicateWords, "replicates", image);
   if (!sums.aovs.empty()) scatter(sums.aovs, kAovWords, "aovs", image);
-  if (!sums.clamped.empty()) scatter(sums.clamped, kClampedWords, "clamped", image);
+  if (!sums.clamped.empty()) scatter(sums.clamped, kRemovedWords, "clamped", image);
+  if (!sums.beyond.empty()) scatter(sums.beyond, kRemovedWords, "beyond", image);
 }
 
 FilmSums storedSums(const Image& image) {
@@ -74,7 +75,8 @@ FilmSums storedSums(const Image& image) {
   }
   sums.replicates = gather(image, kReplicateWords, "replicates");
   if (sums.options.aovs) sums.aovs = gather(image, kAovWords, "aovs");
-  if (sums.options.ledger) sums.clamped = gather(image, kClampedWords, "clamped");
+  if (sums.options.clampLedger) sums.clamped = gather(image, kRemovedWords, "clamped");
+  if (sums.options.depthLedger) sums.beyond = gather(image, kRemovedWords, "beyond");
   return sums;
 }
 

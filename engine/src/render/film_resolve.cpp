@@ -82,14 +82,14 @@ void resolveAovs(const FilmSums& film, Image& image) {
   }
 }
 
-// Mean radiance that clamping took from a sample of each pixel; after resolveRadiance.
-void resolveClamped(const FilmSums& film, Image& image) {
-  const auto* sums = reinterpret_cast<const gpu::ClampedSum*>(film.clamped.data());
-  const size_t pixels = film.clamped.size() / sizeof(gpu::ClampedSum);
+// Mean radiance that a setting took from a sample of each pixel; after resolveRadiance.
+void resolveRemoved(const FilmSums& film, const std::vector<std::byte>& removedSums, const char* layer, Image& image) {
+  const auto* sums = reinterpret_cast<const gpu::RemovedSum*>(removedSums.data());
+  const size_t pixels = removedSums.size() / sizeof(gpu::RemovedSum);
   const std::vector<float> counts = image.find("sampleCount.Y")->values;
   const size_t first = image.channels.size();
-  for (const char* name : {"clamped.R", "clamped.G", "clamped.B"})
-    image.channels.push_back({name, std::vector<float>(pixels)});
+  for (const char* color : {".R", ".G", ".B"})
+    image.channels.push_back({std::string(layer) + color, std::vector<float>(pixels)});
   for (size_t pixel = 0; pixel < pixels; ++pixel) {
     if (counts[pixel] == 0) continue;
     const int64_t removed[3] = {sums[pixel].red, sums[pixel].green, sums[pixel].blue};
@@ -108,7 +108,8 @@ Image Film::resolve() const {
   image.height = impl_->cropHeight;
   const FilmSums film = sums();
   resolveRadiance(film, image);
-  if (!film.clamped.empty()) resolveClamped(film, image);
+  if (!film.clamped.empty()) resolveRemoved(film, film.clamped, "clamped", image);
+  if (!film.beyond.empty()) resolveRemoved(film, film.beyond, "beyond", image);
   if (!film.aovs.empty()) resolveAovs(film, image);
   return image;
 }

@@ -35,7 +35,7 @@ void add(gpu::AovSum& sum, const gpu::AovSum& other) {
   addTo(sum.count, other.count);
 }
 
-void add(gpu::ClampedSum& sum, const gpu::ClampedSum& other) {
+void add(gpu::RemovedSum& sum, const gpu::RemovedSum& other) {
   addTo(sum.red, other.red);
   addTo(sum.green, other.green);
   addTo(sum.blue, other.blue);
@@ -61,7 +61,8 @@ bool sameScale(const FilmSums& a, const FilmSums& b) {
 void addSums(FilmSums& sums, const FilmSums& other) {
   if (sums.options.width != other.options.width || sums.options.height != other.options.height ||
       !(sums.options.crop == other.options.crop) || sums.replicates.size() != other.replicates.size() ||
-      sums.aovs.size() != other.aovs.size() || sums.clamped.size() != other.clamped.size()) {
+      sums.aovs.size() != other.aovs.size() || sums.clamped.size() != other.clamped.size() ||
+      sums.beyond.size() != other.beyond.size()) {
     throw UsageError("images of different size, crop or layers");
   }
   if (!(other.radiancePerUnit > 0)) return; // no samples
@@ -73,7 +74,8 @@ void addSums(FilmSums& sums, const FilmSums& other) {
   FilmSums total = sums; // the sums are as they were where one overflows
   addItems<gpu::ReplicateSum>(total.replicates, other.replicates);
   addItems<gpu::AovSum>(total.aovs, other.aovs);
-  addItems<gpu::ClampedSum>(total.clamped, other.clamped);
+  addItems<gpu::RemovedSum>(total.clamped, other.clamped);
+  addItems<gpu::RemovedSum>(total.beyond, other.beyond);
   sums = std::move(total);
 }
 

@@ -24,6 +24,7 @@ PathPool::PathPool(const Device& device, uint32_t pathCount, const PathPoolParts
       media(device, parts.media ? uint64_t{pathCount} * sizeof(gpu::MediaState) : 0, Memory::Device, "pool.media"),
       straight(device, parts.straight ? uint64_t{pathCount} * sizeof(gpu::StraightState) : 0, Memory::Device,
                "pool.straight"),
+      beyond(device, parts.beyond ? uint64_t{pathCount} * sizeof(gpu::BeyondState) : 0, Memory::Device, "pool.beyond"),
       wave(device, sizeof(gpu::WaveState), Memory::Device, "pool.wave"),
       render(device, sizeof(gpu::RenderView), Memory::Device, "pool.render"),
       filterTable(device, gpu::kFilterTableSize * sizeof(float), Memory::Device, "pool.filterTable"),
@@ -44,7 +45,7 @@ void PathPool::reset(const Device& device, uint64_t firstWork) const {
 std::vector<BufferUse> PathPool::buffers() const {
   std::vector<BufferUse> uses;
   for (const Buffer* buffer : {&queues, &rays, &hits, &paths, &shadows, &interiors, &receivers, &media, &straight,
-                               &wave, &render, &filterTable, &readback}) {
+                               &beyond, &wave, &render, &filterTable, &readback}) {
     if (buffer->bytes() != 0) uses.push_back({buffer->name(), buffer->bytes()});
   }
   return uses;
@@ -58,7 +59,7 @@ uint64_t PathPool::bytes() const {
 
 uint64_t PathPool::bytesPerPath() const {
   return (queues.bytes() + rays.bytes() + hits.bytes() + paths.bytes() + shadows.bytes() + interiors.bytes() +
-          receivers.bytes() + media.bytes() + straight.bytes()) /
+          receivers.bytes() + media.bytes() + straight.bytes() + beyond.bytes()) /
          capacity;
 }
 

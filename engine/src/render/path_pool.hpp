@@ -18,6 +18,7 @@ struct PathPoolParts {
   bool media = false;           ///< of volumes
   bool scatteringMedia = false; ///< their queue
   bool straight = false;        ///< of shadow rays that cross glass
+  bool beyond = false;          ///< of paths followed beyond the depth limit
 };
 
 struct PathPool {
@@ -31,6 +32,7 @@ struct PathPool {
   gpu::Buffer receivers; ///< null where the choice of a light does not depend on them
   gpu::Buffer media;     ///< MediaState; null without volumes
   gpu::Buffer straight;  ///< null where glass stops shadow rays
+  gpu::Buffer beyond;    ///< BeyondState; null where no path is followed beyond the depth limit
   gpu::Buffer wave;      ///< WaveState
   gpu::Buffer render;    ///< RenderView
   gpu::Buffer filterTable;

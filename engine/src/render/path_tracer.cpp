@@ -52,6 +52,7 @@ struct PathTracer::Impl {
   gpu::TextureArray placeholderTextures;
   std::optional<WavefrontKernels> kernels;
   FeatureSet kernelFeatures;
+  bool depthLedger = false; ///< of the kernels and the pool
   std::optional<PathPool> pool;
   gpu::CommandStream commands;
 
@@ -75,7 +76,7 @@ struct PathTracer::Impl {
     return placeholderTextures.size() > 0 ? placeholderTextures : scene.impl().textures;
   }
   [[nodiscard]] gpu::Buffer uploadView() const;
-  void makeKernels(const Camera& camera);
+  void makeKernels(const Camera& camera, const Film& target);
   void writeRenderView(const Camera& camera, SampleRange range);
   void findCameraMedia();
   void dispatch(const gpu::Kernel& kernel, uint32_t stage);
@@ -104,8 +105,9 @@ gpu::Buffer PathTracer::Impl::uploadView() const {
   return gpu::uploadBuffer(device, std::vector{view}, "render.scene");
 }
 
-// The camera's kind is a feature too, so kernels wait for the first camera; a later one of another kind remakes them.
-void PathTracer::Impl::makeKernels(const Camera& camera) {
+// The camera's kind is a feature too, so kernels wait for the first camera and film; later ones of another kind remake
+// them.
+void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   FeatureSet features = FeatureSet::all();
   if (execution.specialize) {
     features = scene.features();
@@ -113,14 +115,17 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
     if (camera.kind == CameraKind::Panorama) features.add(Feature::kHasPanorama);
     if (camera.hasLens()) features.add(Feature::kHasThinLens);
   }
-  if (kernels && features == kernelFeatures) return;
+  const bool ledger = target.options().depthLedger && execution.depthLedger && estimator.maxDepth != kUnlimitedDepth;
+  if (kernels && features == kernelFeatures && ledger == depthLedger) return;
+  if (ledger != depthLedger) pool.reset(); // it holds other state
+  depthLedger = ledger;
   const auto start = Clock::now();
   if (features.has(Feature::kHasTextures) && scene.impl().textures.size() == 0) {
     const ImageData white{.name = "placeholder", .width = 1, .height = 1, .pixels = std::vector(4, std::byte{255})};
     const gpu::TextureUpload upload{.image = &white};
     placeholderTextures = gpu::TextureArray(device, {&upload, 1});
   }
-  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout());
+  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout(), depthLedger);
   kernelFeatures = features;
   totals.compileSeconds += secondsSince(start);
   if (!pool) {
@@ -133,7 +138,8 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
                                .media = features.has(Feature::kHasVolumes),
                                .scatteringMedia = kernels->shadeMedium.has_value(),
                                .straight = features.has(Feature::kHasTransmission) &&
-                                           estimator.shadowTransmission == ShadowTransmission::Straight});
+                                           estimator.shadowTransmission == ShadowTransmission::Straight,
+                               .beyond = depthLedger});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
@@ -141,9 +147,9 @@ void PathTracer::Impl::makeKernels(const Camera& camera) {
 }
 
 void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) {
-  const gpu::RenderView view =
-      renderView(scene.impl(), film->impl(), camera, range, estimator, pool->filterTable.address());
+  gpu::RenderView view = renderView(scene.impl(), film->impl(), camera, range, estimator, pool->filterTable.address());
   workEnd = view.workEnd;
+  view.beyondPaths = pool->beyond.address();
   if (range.begun > workEnd) throw UsageError("more of the first sample is done than there is");
   gpu::writeBuffer(device, pool->render, 0, std::as_bytes(std::span(&view, 1)));
 }
@@ -275,7 +281,7 @@ void PathTracer::setSeed(uint64_t seed) { impl_->estimator.seed = seed; }
 void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   if (impl_->film != nullptr) throw Error("a render is under way: finish or cancel it first");
   if (range.last < range.first) throw UsageError("the sample range ends before it begins");
-  impl_->makeKernels(camera);
+  impl_->makeKernels(camera, film);
   impl_->film = &film;
   impl_->accepting = true;
   impl_->writeRenderView(camera, range);

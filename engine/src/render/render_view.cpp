@@ -35,6 +35,7 @@ gpu::RenderView renderView(const GpuScene::Impl& scene, Film::Impl& film, const 
   view.replicates = film.replicates.address();
   view.aovs = film.aovs.address();
   view.clamped = film.clamped.address();
+  view.beyond = film.beyond.address();
   view.imageSize = {film.options.width, film.options.height};
   view.cropOrigin = {crop.x0, crop.y0};
   view.cropSize = {film.cropWidth, film.cropHeight};

@@ -8,8 +8,8 @@ namespace isophote {
 namespace {
 
 // Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
-bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings) {
-  if (settings.maxDepth == 0) return false;
+bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger) {
+  if (settings.maxDepth == 0 && !depthLedger) return false;
   if (features.has(Feature::kHasPunctualLights)) return true;
   return settings.lightSampling != LightSampling::BsdfOnly &&
          (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights) ||
@@ -25,7 +25,7 @@ bool shinesBeyondSurfaces(const FeatureSet& features) {
 } // namespace
 
 std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const EstimatorSettings& settings,
-                                               uint32_t workgroupSize) {
+                                               uint32_t workgroupSize, bool depthLedger) {
   std::vector<gpu::SpecConstant> constants = {{0, workgroupSize}};
   for (const FeatureDescription& description : allFeatures()) {
     constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
@@ -43,6 +43,7 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   constants.push_back({setting_id::kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({setting_id::kShadowTransmission, static_cast<uint32_t>(settings.shadowTransmission)});
   constants.push_back({setting_id::kRussianRoulette, settings.russianRoulette ? 1u : 0u});
+  constants.push_back({setting_id::kDepthLedger, depthLedger ? 1u : 0u});
   constants.push_back({setting_id::kClamp, settings.clamp < kNoClamp ? 1u : 0u});
   return constants;
 }
@@ -60,8 +61,8 @@ std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
 
 WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
                                       const EstimatorSettings& settings, uint32_t workgroupSize,
-                                      VkDescriptorSetLayout textureLayout) {
-  const auto constants = kernelConstants(features, settings, workgroupSize);
+                                      VkDescriptorSetLayout textureLayout, bool depthLedger) {
+  const auto constants = kernelConstants(features, settings, workgroupSize, depthLedger);
   const auto make = [&](const char* name) {
     return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
   };
@@ -77,7 +78,7 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
   if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
   if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
   if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
-  if (samplesLights(features, settings)) kernels.intersectShadow = make("intersect_shadow");
+  if (samplesLights(features, settings, depthLedger)) kernels.intersectShadow = make("intersect_shadow");
   return kernels;
 }
 

@@ -26,12 +26,14 @@ struct WavefrontKernels {
 };
 
 /// What specializes a kernel: workgroup size, features, settings.
+/// @param depthLedger  some paths are followed beyond the depth limit
 [[nodiscard]] std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features,
-                                                             const EstimatorSettings& settings, uint32_t workgroupSize);
+                                                             const EstimatorSettings& settings, uint32_t workgroupSize,
+                                                             bool depthLedger = false);
 
 /// @param textureLayout  of the scene's texture array, null where it has none
 [[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
                                                     const EstimatorSettings& settings, uint32_t workgroupSize,
-                                                    VkDescriptorSetLayout textureLayout);
+                                                    VkDescriptorSetLayout textureLayout, bool depthLedger = false);
 
 } // namespace isophote
