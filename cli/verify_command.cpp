@@ -1,0 +1,4 @@
+#include "commands.hpp"
+namespace isophote::cli {
+void addVerifyCommand(CLI::App&, Action&) {}
+} // namespace isophote::cli
