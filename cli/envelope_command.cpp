@@ -134,7 +134,8 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void writeReport(const std::vector<MeasuredSweep>& sweeps, const EnvelopeContext& context, const std::string& directory) {
+void writeReport(const std::vector<MeasuredSweep>& sweeps, const EnvelopeContext& context,
+                 const std::string& directory) {
   const std::filesystem::path folder = directory;
   writeFileAtomically(folder / kFiles[0], envelopeJson(sweeps, context).dump(2) + "\n");
   writeFileAtomically(folder / kFiles[1], envelopeCsv(sweeps));

@@ -114,12 +114,14 @@ std::string envelopeCurve(const MeasuredSweep& measured) {
 
 std::string envelopePage(const std::vector<MeasuredSweep>& sweeps, const EnvelopeContext& context) {
   std::string text = "# Envelope\n\n";
-  text += fmt::format(
-      "How far each quantity can go before the image is wrong. Written by `{}` in {:.0f} s on {} ({}).\n\n"
-      "Every image here has a known answer. An error counts as below a limit only where the upper end of its 95% interval "
-      "is; the range is of the values measured, without a gap, around a tame one. Dashed lines in the curves are 0.1% and "
-      "1%, whiskers the intervals; an error below 1e-8 is drawn there.\n\n",
-      context.command, context.seconds, context.device, context.driver);
+  text +=
+      fmt::format("How far each quantity can go before the image is wrong. Written by `{}` in {:.0f} s on {} ({}).\n\n"
+                  "Every image here has a known answer. An error counts as below a limit only where the upper end of "
+                  "its 95% interval "
+                  "is; the range is of the values measured, without a gap, around a tame one. Dashed lines in the "
+                  "curves are 0.1% and "
+                  "1%, whiskers the intervals; an error below 1e-8 is drawn there.\n\n",
+                  context.command, context.seconds, context.device, context.driver);
   if (context.interrupted) text += "**Interrupted: this is what was measured until then.**\n\n";
   text += "| sweep | quantity | error below 0.1% | below 1% | largest bound |\n|---|---|---|---|---|\n";
   for (const MeasuredSweep& measured : sweeps) {

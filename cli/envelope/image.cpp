@@ -95,19 +95,28 @@ Case edge(double side) {
 } // namespace
 
 void addImageSweeps(std::vector<Sweep>& sweeps) {
-  sweeps.push_back({"texture", "texels in a row", "One white texel among black ones, seen from up close: a half",
+  sweeps.push_back({"texture",
+                    "texels in a row",
+                    "One white texel among black ones, seen from up close: a half",
                     {1, 4, 64, 1024, 4096, 8192, 16384},
                     64,
                     texture});
-  sweeps.push_back({"samples", "samples per pixel", "A sky of 0.1: 0.1",
+  sweeps.push_back({"samples",
+                    "samples per pixel",
+                    "A sky of 0.1: 0.1",
                     {1, 16, 256, 4096, 65536, 1 << 20, 1 << 23, 1 << 26},
                     16,
                     constantSky});
-  Sweep accumulation{"accumulation", "samples per pixel", "A sky of 0.1, a film added to itself: 0.1",
-                     {4096, 1 << 20, 1 << 26, 1 << 28, 1 << 30, 0x1p31, 0x1p32, 0x1p33, 0x1p34}, 4096, {}};
+  Sweep accumulation{"accumulation",
+                     "samples per pixel",
+                     "A sky of 0.1, a film added to itself: 0.1",
+                     {4096, 1 << 20, 1 << 26, 1 << 28, 1 << 30, 0x1p31, 0x1p32, 0x1p33, 0x1p34},
+                     4096,
+                     {}};
   accumulation.measured = accumulated;
   sweeps.push_back(accumulation);
-  sweeps.push_back({"resolution", "pixels on a side",
+  sweeps.push_back({"resolution",
+                    "pixels on a side",
                     "A lamp's edge at 0.3 of a pixel, in the last pixels of the image; relative to that pixel",
                     {1, 16, 256, 1024, 4096, 16384, 32768, kLargestSide},
                     256,

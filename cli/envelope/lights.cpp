@@ -29,6 +29,7 @@ Case sphereOfSolidAngle(double solidAngle) {
   const double radius = static_cast<double>(light.radius);
   light.intensity = glm::vec3(static_cast<float>(kPi * radius * radius / sineSquared));
   Case c = floorUnder({light});
+  c.camera = orthographicLookAt({0, 1e-4, 0}, {0, 0, 0}, 1e-6, 1e-6); // below the sphere
   c.exact = static_cast<double>(light.intensity.g) / (inside ? kPi * radius * radius : kPi * kDistance * kDistance);
   return c;
 }
@@ -75,22 +76,26 @@ Case lamps(double count) {
 } // namespace
 
 void addLightSweeps(std::vector<Sweep>& sweeps) {
-  sweeps.push_back({"solid-angle-sphere", "solid angle of the light, sr",
+  sweeps.push_back({"solid-angle-sphere",
+                    "solid angle of the light, sr",
                     "A spherical lamp over a Lambert floor, its irradiance pi at every size: cosine over a cone",
                     {4 * kPi, 6, 1, 0.1, 1e-2, 1e-4, 6.8e-5, 1e-6, 1e-8, 1e-10, 1e-12},
                     1,
                     sphereOfSolidAngle});
-  sweeps.push_back({"solid-angle-square", "solid angle of the light, sr",
+  sweeps.push_back({"solid-angle-square",
+                    "solid angle of the light, sr",
                     "A square lamp over a Lambert floor, its irradiance about pi at every size: Lambert's formula",
                     {1, 0.1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12},
                     1,
                     squareOfSolidAngle});
-  sweeps.push_back({"intensity", "radiance of the light",
+  sweeps.push_back({"intensity",
+                    "radiance of the light",
                     "A square lamp over a Lambert floor, Lambert's form factor",
                     {1e-20, 1e-16, 1e-12, 1e-8, 1e-4, 1, 1e4, 1e8, 1e12, 1e16, 1e20},
                     1,
                     lampOfRadiance});
-  sweeps.push_back({"lights", "number of lights",
+  sweeps.push_back({"lights",
+                    "number of lights",
                     "Point lights of random places and intensities over a Lambert floor: their sum",
                     {1, 10, 100, 1e3, 1e4, 1e5, 1e6},
                     1,

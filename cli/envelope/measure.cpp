@@ -12,8 +12,8 @@
 namespace isophote::envelope {
 namespace {
 
-/// The mean of green and its 95% interval. Pixels are independent; where one has no error bar of its own (fewer than two
-/// replicates hold samples) the pixels, all of one expectation, are each other's.
+/// The mean of green and its 95% interval. Pixels are independent; where one has no error bar of its own (fewer than
+/// two replicates hold samples) the pixels, all of one expectation, are each other's.
 Interval meanOf(const Image& image) {
   const std::vector<float>& values = image.find("G")->values;
   const std::vector<float>& halfWidths = image.find("ci95.G")->values;
@@ -42,8 +42,7 @@ void render(const Device& device, const Case& c, const Effort& effort, Point& po
   const uint32_t most = std::max(c.mostSamples / effort.divideBy, c.fewestSamples);
   const double scale = c.scale > 0 ? c.scale : c.exact;
   for (uint32_t done = 0, next = c.fewestSamples; done < most; next = std::min(4 * next, most)) {
-    const bool finished =
-        tracer.render(c.camera, film, {done, next}, [&](const Progress&) { return effort.goOn(); });
+    const bool finished = tracer.render(c.camera, film, {done, next}, [&](const Progress&) { return effort.goOn(); });
     if (!finished || !effort.goOn()) {
       point.failure = "interrupted";
       return;

@@ -29,8 +29,8 @@ struct Case {
 
 /// How hard to look.
 struct Effort {
-  double halfWidth = 2e-4;  ///< relative; of the error bar that is good enough
-  uint32_t divideBy = 1;    ///< fewer samples at most
+  double halfWidth = 2e-4;                          ///< relative; of the error bar that is good enough
+  uint32_t divideBy = 1;                            ///< fewer samples at most
   std::function<bool()> goOn = [] { return true; }; ///< asked between submits; false ends the measurement
 };
 
@@ -39,7 +39,7 @@ struct Point {
   double value = 0;
   double error = 0;
   double halfWidth = 0;
-  uint64_t samples = 0;     ///< a pixel
+  uint64_t samples = 0; ///< a pixel
   double seconds = 0;
   std::string failure = {}; ///< why there is no error to state, or what was dropped
 

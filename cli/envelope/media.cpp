@@ -81,12 +81,21 @@ Case scatteringOnce(double depth) {
 void addMediumSweeps(std::vector<Sweep>& sweeps) {
   const std::vector<double> depths = {1e-8, 1e-6, 1e-4, 1e-2, 0.1, 1, 10, 100, 1e3, 1e4};
   const char* quantity = "optical depth";
-  sweeps.push_back({"absorption", quantity, "A block that absorbs, before a white sky: exp(-depth), relative to the sky",
-                    depths, 1, absorbing});
-  sweeps.push_back({"darkness", quantity, "The same, relative to what is left of the sky",
-                    {1e-2, 0.1, 1, 2, 5, 10, 15, 20, 25, 30}, 1, dark});
-  sweeps.push_back({"scattering", quantity, "A block that scatters and loses nothing, under a white sky: 1",
-                    {1e-8, 1e-6, 1e-4, 1e-2, 0.1, 1, 10, 100, 1e3, 1e4}, 1, scatteringAll});
+  sweeps.push_back({"absorption", quantity,
+                    "A block that absorbs, before a white sky: exp(-depth), relative to the sky", depths, 1,
+                    absorbing});
+  sweeps.push_back({"darkness",
+                    quantity,
+                    "The same, relative to what is left of the sky",
+                    {1e-2, 0.1, 1, 2, 5, 10, 15, 20, 25, 30},
+                    1,
+                    dark});
+  sweeps.push_back({"scattering",
+                    quantity,
+                    "A block that scatters and loses nothing, under a white sky: 1",
+                    {1e-8, 1e-6, 1e-4, 1e-2, 0.1, 1, 10, 100, 1e3, 1e4},
+                    1,
+                    scatteringAll});
   sweeps.push_back({"single-scattering", quantity, "The sun scattered back once by a block: an integral over its depth",
                     depths, 1, scatteringOnce});
 }

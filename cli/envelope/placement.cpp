@@ -45,9 +45,7 @@ Case placed(Case c, const glm::dmat4& map, double factor) {
   return c;
 }
 
-Case scaled(const Case& c, double factor) {
-  return placed(c, glm::scale(glm::dmat4(1), glm::dvec3(factor)), factor);
-}
+Case scaled(const Case& c, double factor) { return placed(c, glm::scale(glm::dmat4(1), glm::dvec3(factor)), factor); }
 
 /// `sizes` times the room's diagonal away, in a direction without symmetry.
 Case moved(const Case& c, double sizes) {

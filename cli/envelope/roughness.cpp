@@ -31,7 +31,7 @@ Case sunInMetal(double roughness) {
 
 /// A surface that loses nothing under a white sky, seen at `cosine` from its normal: 1.
 Case whitePlate(const Material& material, double cosine) {
-  Case c{.estimator = {.filter = PixelFilter::Box, .lightSampling = LightSampling::BsdfOnly}, .mostSamples = 1 << 12};
+  Case c{.estimator = {.filter = PixelFilter::Box, .lightSampling = LightSampling::BsdfOnly}, .mostSamples = 1 << 15};
   c.scene.environment = constantEnvironment(glm::vec3(1));
   Primitive plate = quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, addMaterial(c.scene, material));
   plate.normals.assign(4, glm::vec3(0, 1, 0));
@@ -46,7 +46,7 @@ Case whitePlate(const Material& material, double cosine) {
 Case whiteGlass(double roughness) {
   Case c{.camera = lookAt({1.6, 1.1, 2.1}, {0, 0, 0}, 0.2),
          .estimator = {.filter = PixelFilter::Box, .lightSampling = LightSampling::BsdfOnly},
-         .mostSamples = 1 << 12};
+         .mostSamples = 1 << 14};
   c.scene.environment = constantEnvironment(glm::vec3(1));
   const uint32_t material = addMaterial(c.scene, glass(static_cast<float>(roughness)));
   addPrimitive(c.scene, box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, false, material));
@@ -70,9 +70,10 @@ void addRoughnessSweeps(std::vector<Sweep>& sweeps) {
   sweeps.push_back({"roughness-metal", "roughness", "A white metal plate at 60 degrees under a white sky: 1",
                     kRoughnesses, 0.5,
                     [](double value) { return whitePlate(metal(glm::vec3(1), static_cast<float>(value)), 0.5); }});
-  sweeps.push_back({"roughness-glass", "roughness", "A block of glass under a white sky: 1", kRoughnesses, 0.5,
-                    whiteGlass});
-  sweeps.push_back({"anisotropy", "ratio of the facets' widths",
+  sweeps.push_back(
+      {"roughness-glass", "roughness", "A block of glass under a white sky: 1", kRoughnesses, 0.5, whiteGlass});
+  sweeps.push_back({"anisotropy",
+                    "ratio of the facets' widths",
                     "A brushed white metal plate at 60 degrees under a white sky, the wider alpha 1: 1",
                     {1, 3, 10, 30, 100, 300, 1e3, 1e4, 1e5, 1e6},
                     1,

@@ -47,17 +47,20 @@ Case roulette(double albedo) {
 } // namespace
 
 void addSeriesSweeps(std::vector<Sweep>& sweeps) {
-  sweeps.push_back({"depth", "scatterings on a path",
+  sweeps.push_back({"depth",
+                    "scatterings on a path",
                     "A room that emits 1 and loses nothing, cut after so many scatterings: their number and 1",
                     {0, 1, 10, 100, 1000, 10000},
                     1,
                     lossless});
-  sweeps.push_back({"albedo", "reflectance",
+  sweeps.push_back({"albedo",
+                    "reflectance",
                     "A room that emits what it absorbs, the geometric series cut after at most 10,000 scatterings",
                     {0, 0.5, 0.9, 0.99, 0.999, 0.9999, 0.99999, 0.999999},
                     0.5,
                     series});
-  sweeps.push_back({"albedo-roulette", "reflectance",
+  sweeps.push_back({"albedo-roulette",
+                    "reflectance",
                     "A room that emits what it absorbs, paths ended by Russian roulette: 1; ended by noise",
                     {0, 0.5, 0.9, 0.99, 0.999},
                     0.5,

@@ -122,9 +122,9 @@ std::string Plot::svg() const {
 }
 
 std::string Plot::svgFile(const std::string& style) const {
-  return fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}'><style>{2}</style>{3}</svg>\n",
-      kWidth, kHeight, style, body_);
+  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' "
+                     "height='{1}'><style>{2}</style>{3}</svg>\n",
+                     kWidth, kHeight, style, body_);
 }
 
 } // namespace isophote::cli

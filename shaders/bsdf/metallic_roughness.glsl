@@ -139,10 +139,10 @@ void setExactAlbedo(inout MetallicRoughness m, const float ior, const uint table
 void setAnisotropy(inout MetallicRoughness m, const float strength, const uint table) {
   if (strength <= 0.0) return;
   const vec2 width = vec2(mix(m.alpha, 1.0, strength * strength), m.alpha);
-  if (width.x < kMirrorAlpha) return;
+  if (width.x < kNarrowestAlpha) return;
   m.grain = vec2(sqrt(m.alpha), strength);
   m.anisotropicAlbedo = table;
-  m.width = max(width, vec2(kMirrorAlpha));
+  m.width = max(width, vec2(kNarrowestAlpha));
   m.alpha = sqrt(m.width.x * m.width.y);
 }
 
@@ -183,7 +183,7 @@ bool reflectsExactly(const MetallicRoughness m) { return kFresnel == kFresnelExa
 vec3 opaqueReflectance(const MetallicRoughness m, const float cosine) {
   if (!reflectsExactly(m)) return fresnelSchlick(m.glassF0, vec3(m.glassF90), cosine);
   const float share = grazingShare(fresnelDielectric(cosine, m.ior), m.ior);
-  return m.glassF0 + (vec3(m.glassF90) - m.glassF0) * share;
+  return max(m.glassF0 + (vec3(m.glassF90) - m.glassF0) * share, vec3(0.0));
 }
 
 /// What facets other than glass reflect.
@@ -262,7 +262,8 @@ vec3 glassReflectance(const MetallicRoughness m, const float cosine) {
   const float reflectance =
       kFresnel == kFresnelSchlick ? schlickDielectric(cosine, m.eta) : fresnelDielectric(cosine, m.eta);
   if (reflectance >= 1.0) return vec3(1.0);
-  const vec3 bare = m.glassF0 + (vec3(m.glassF90) - m.glassF0) * grazingShare(reflectance, m.eta);
+  const float share = grazingShare(reflectance, m.eta);
+  const vec3 bare = max(m.glassF0 + (vec3(m.glassF90) - m.glassF0) * share, vec3(0.0)); // f0 may be less than eta's
   if (!hasFilm(m)) return bare;
   const float sin2Outside = (1.0 - cosine * cosine) / min(m.eta * m.eta, 1.0); // from inside, by Snell's law
   return mix(bare, filmReflectance(m.film, sqrt(max(1.0 - sin2Outside, 0.0)), m.glassF0), m.film.amount);

@@ -274,7 +274,7 @@ glm::dvec3 glassReflectance(const MetallicRoughness& m, double cosine) {
   const double exact = fresnelDielectric(cosine, m.innerIor / m.outerIor);
   if (exact >= 1) return glm::dvec3(1); // total internal reflection, or grazing
   const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
-  const glm::dvec3 bare = glm::mix(m.glassF0, glm::dvec3(m.glassF90), std::max(0.0, (exact - normal) / (1 - normal)));
+  const glm::dvec3 bare = glm::max(glm::mix(m.glassF0, glm::dvec3(m.glassF90), (exact - normal) / (1 - normal)), 0.0);
   if (m.film.amount == 0) return bare;
   const double sineOutside = std::sqrt(1 - cosine * cosine) * std::max(m.outerIor, 1.0); // Snell's law
   const double outside = std::sqrt(std::max(0.0, 1 - sineOutside * sineOutside));
@@ -290,7 +290,7 @@ MetallicRoughness withDiffuseTransmission(MetallicRoughness m, double share, con
 
 MetallicRoughness withAnisotropy(MetallicRoughness m, double strength) {
   const double wide = std::lerp(m.alpha, 1.0, strength * strength);
-  const double limit = double(gpu::kMirrorAlpha);
+  const double limit = double(gpu::kNarrowestAlpha);
   if (strength == 0 || wide < limit) return m;
   m.width = {wide, std::max(m.alpha, limit)};
   m.alpha = std::sqrt(m.width.x * m.width.y);
