@@ -22,6 +22,11 @@ vec3 clampSample(const RenderRef render, const uint pixel, const vec3 radiance, 
   return kept;
 }
 
+// Whether a sum of values that are not negative has left the range of 63 bits.
+bool isFull(const int64_t before, const int64_t added) {
+  return uint64_t(before) + uint64_t(added) > 0x7ffffffffffffffful;
+}
+
 void addSample(const PathState path) {
   RenderRef render = RenderRef(pc.render);
   const uvec2 cropPixel = uvec2(path.pixel & 0xffffu, path.pixel >> 16u) - render.view.cropOrigin;
@@ -41,9 +46,13 @@ void addSample(const PathState path) {
   const vec3 scaled = radiance * render.view.radianceScale;
   if (any(greaterThan(scaled, vec3(kFixedPointLimit)))) countStatus(kStatusClipped);
   ReplicateRef sums = ReplicateRef(render.view.replicates);
-  atomicAdd(sums.items[index].red, toFixedPoint(scaled.x, dither.x));
-  atomicAdd(sums.items[index].green, toFixedPoint(scaled.y, dither.y));
-  atomicAdd(sums.items[index].blue, toFixedPoint(scaled.z, dither.z));
+  const int64_t red = toFixedPoint(scaled.x, dither.x);
+  const int64_t green = toFixedPoint(scaled.y, dither.y);
+  const int64_t blue = toFixedPoint(scaled.z, dither.z);
+  const bool redFull = isFull(atomicAdd(sums.items[index].red, red), red);
+  const bool greenFull = isFull(atomicAdd(sums.items[index].green, green), green);
+  const bool blueFull = isFull(atomicAdd(sums.items[index].blue, blue), blue);
+  if (redFull || greenFull || blueFull) countStatus(kStatusClipped);
   atomicAdd(sums.items[index].count, 1u);
   if (path.hit != 0u) atomicAdd(sums.items[index].hitCount, 1u);
 }

@@ -1,6 +1,8 @@
 // The sweeps of `isophote envelope`: points of them that break first by default, and all published ranges in the slow
 // suite.
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <fstream>
 #include <string>
 
