@@ -32,7 +32,7 @@ Case texture(double size) {
   addPrimitive(c.scene, wall);
   const double texel = 2.0 / count;
   const double x = -1 + (bright + 0.5) * texel;
-  c.camera = orthographicLookAt({x, 0, 1}, {x, 0, 0}, count < 4 ? 1 : texel, 0.1);
+  c.camera = orthographicLookAt({x, 0, 1}, {x, 0, 0}, count < 4 ? 1 : texel, count < 4 ? 1 : texel);
   c.exact = count < 4 ? 1.0 / count : 0.5;
   return c;
 }

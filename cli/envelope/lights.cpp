@@ -56,6 +56,17 @@ Case lampOfRadiance(double radiance) {
           .mostSamples = 1 << 16};
 }
 
+/// A lamp at height 1 over a floor of this half width, above its middle.
+Case lampOverPlain(double size) {
+  Case c{.scene = lambertFloor(glm::vec3(1), size), .camera = sensorAt({0, 0, 0}), .fewestSamples = 1024};
+  PunctualLight light;
+  light.intensity = glm::vec3(static_cast<float>(kPi));
+  light.position = {0, 1, 0};
+  c.scene.lights.push_back(light);
+  c.exact = static_cast<double>(light.intensity.g) / kPi;
+  return c;
+}
+
 /// Point lights of random places and intensities over a floor.
 Case lamps(double count) {
   std::mt19937 generator(6);
@@ -94,6 +105,12 @@ void addLightSweeps(std::vector<Sweep>& sweeps) {
                     {1e-20, 1e-16, 1e-12, 1e-8, 1e-4, 1, 1e4, 1e8, 1e12, 1e16, 1e20},
                     1,
                     lampOfRadiance});
+  sweeps.push_back({"nearness",
+                    "size of the scene over the distance of the lamp",
+                    "A point light over a large Lambert floor: the inverse square of its height",
+                    {1, 10, 100, 1e3, 1e4, 1e5, 1e6},
+                    10,
+                    lampOverPlain});
   sweeps.push_back({"lights",
                     "number of lights",
                     "Point lights of random places and intensities over a Lambert floor: their sum",

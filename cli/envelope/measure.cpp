@@ -32,6 +32,7 @@ Interval meanOf(const Image& image) {
 }
 
 bool goodEnough(const Point& point, const Effort& effort) {
+  if (point.halfWidth == 0 && std::abs(point.error) > 0.01) return false; // what makes the difference may be rare
   return point.halfWidth <= std::max(effort.halfWidth, std::abs(point.error) / 5);
 }
 

@@ -34,7 +34,8 @@ struct Effort {
   std::function<bool()> goOn = [] { return true; }; ///< asked between submits; false ends the measurement
 };
 
-/// The relative error of an image's mean, and the half-width of its 95% interval.
+/// The relative error of an image's mean, and the half-width of its 95% interval. Where all samples were alike the
+/// interval is a point: an event that none of them saw is not in it.
 struct Point {
   double value = 0;
   double error = 0;

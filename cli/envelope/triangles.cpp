@@ -1,4 +1,5 @@
 // Slivers.
+#include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -34,7 +35,8 @@ Case sliverFloor(double aspect) {
   addPrimitive(c.scene, slivers(aspect, kCount, addMaterial(c.scene, lambert(glm::vec3(1)))), tilt);
   const glm::dvec3 normal(tilt * glm::dvec4(0, 1, 0, 0));
   c.scene.lights.push_back({.kind = LightKind::Directional, .intensity = glm::vec3(1), .direction = {0, -1, 0}});
-  c.camera = orthographicLookAt(normal, {0, 0, 0}, 20 / aspect, 20 / aspect); // of 64 / aspect each way
+  const double half = std::min(0.4, 20 / aspect); // the floor is 64 / aspect wide each way and 1 long
+  c.camera = orthographicLookAt(normal, {0, 0, 0}, half, half);
   c.exact = normal.y / kPi;
   c.estimator.maxDepth = 1;
   return c;
