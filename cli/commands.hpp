@@ -15,8 +15,10 @@ void addDevicesCommand(CLI::App& program, Action& action);
 void addCompareCommand(CLI::App& program, Action& action);
 void addBenchCommand(CLI::App& program, Action& action);
 void addCalibrateCommand(CLI::App& program, Action& action);
+void addEnvelopeCommand(CLI::App& program, Action& action);
 void addMergeCommand(CLI::App& program, Action& action);
 void addSettingsCommand(CLI::App& program, Action& action);
 void addTradeCommand(CLI::App& program, Action& action);
+void addVerifyCommand(CLI::App& program, Action& action);
 
 } // namespace isophote::cli

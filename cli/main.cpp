@@ -33,7 +33,9 @@ int main(int argc, char** argv) {
     addDevicesCommand(program, action);
     addCompareCommand(program, action);
     addMergeCommand(program, action);
+    addVerifyCommand(program, action);
     addTradeCommand(program, action);
+    addEnvelopeCommand(program, action);
     addCalibrateCommand(program, action);
     addBenchCommand(program, action);
     addSettingsCommand(program, action);

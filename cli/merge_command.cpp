@@ -12,7 +12,7 @@
 #include "exit_codes.hpp"
 #include "isophote/error.hpp"
 #include "isophote/film.hpp"
-#include "parse.hpp"
+#include "receipt.hpp"
 #include "render_report.hpp"
 
 namespace isophote::cli {
@@ -26,23 +26,6 @@ struct MergeOptions {
   std::string device;
   bool quiet = false;
 };
-
-const std::string& attribute(const std::string& file, const Image& image, const std::string& name) {
-  const auto found = image.attributes.find(name);
-  if (found == image.attributes.end()) throw UsageError(file + ": no " + name + ": not an image of Isophote");
-  return found->second;
-}
-
-/// `0:16` or, of merged images, `0:16,32:48`.
-std::vector<SampleRange> sampleRanges(const std::string& text) {
-  std::vector<SampleRange> ranges;
-  for (size_t start = 0; start <= text.size();) {
-    const size_t end = std::min(text.find(',', start), text.size());
-    ranges.push_back(parseSampleRange(text.substr(start, end - start)));
-    start = end + 1;
-  }
-  return ranges;
-}
 
 std::string textOf(std::vector<SampleRange> ranges) {
   std::vector<std::string> parts;

@@ -125,6 +125,7 @@ Json requestJson(const RenderReport& report) {
   Json settings = settingsJson(report.settings, false);
   settings["image"] = sizeJson(report);
   settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
+  if (!report.view.framing) settings["camera_index"] = report.view.cameraIndex;
   const Camera& camera = report.view.camera;
   if (camera.kind == CameraKind::Panorama) settings["panorama"] = true;
   if (camera.hasLens()) {

@@ -54,12 +54,14 @@ std::string cameraList(const Scene& scene) {
   return text;
 }
 
-const Camera& findCamera(const Scene& scene, const std::string& name) {
+size_t findCamera(const Scene& scene, const CameraOptions& options) {
+  if (options.index && *options.index < scene.cameras.size()) return *options.index;
+  const std::string name = options.index ? std::to_string(*options.index) : options.name.value_or("0");
   const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                   [&](const Camera& camera) { return !name.empty() && camera.name == name; });
-  if (named != scene.cameras.end()) return *named;
+  if (named != scene.cameras.end() && options.name) return static_cast<size_t>(named - scene.cameras.begin());
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    if (name == std::to_string(i)) return scene.cameras[i];
+    if (name == std::to_string(i)) return i;
   }
   throw UsageError(fmt::format("--camera: no camera '{}'; {}", name, cameraList(scene)));
 }
@@ -175,8 +177,11 @@ bool hasLight(const Scene& scene) {
 View chooseView(const Scene& scene, const CameraOptions& camera, std::optional<uint32_t> width,
                 std::optional<uint32_t> height) {
   View view;
-  view.framing = scene.cameras.empty() && !camera.name;
-  if (!view.framing) view.camera = camera.name ? findCamera(scene, *camera.name) : scene.cameras.front();
+  view.framing = scene.cameras.empty() && !camera.name && !camera.index;
+  if (!view.framing) {
+    view.cameraIndex = findCamera(scene, camera);
+    view.camera = scene.cameras[view.cameraIndex];
+  }
   change(view.camera, camera);
   const double aspect = aspectRatio(view.camera);
   view.width = width.value_or(height ? toSide(*height * aspect) : kDefaultWidth);

@@ -28,6 +28,7 @@ void addEnvironmentFlags(CLI::App& command, EnvironmentOptions& options);
 /// What replaces the chosen camera's own values.
 struct CameraOptions {
   std::optional<std::string> name; ///< or index
+  std::optional<size_t> index;     ///< in place of the name
   std::optional<double> lensRadius;
   std::optional<double> focusDistance;
   std::optional<uint32_t> apertureBlades;
@@ -56,7 +57,8 @@ struct View {
   Camera camera;
   uint32_t width = 0;
   uint32_t height = 0;
-  bool framing = false; ///< the asset has no camera
+  bool framing = false;   ///< the asset has no camera
+  size_t cameraIndex = 0; ///< of the asset's cameras, where it has any
 };
 
 /// The camera called or numbered as `camera` says, else the first, else one that frames the scene. A size not given

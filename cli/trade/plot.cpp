@@ -22,6 +22,8 @@ double Axis::position(double value) const {
 
 std::vector<double> Axis::ticks() const {
   std::vector<double> ticks;
+  for (size_t i = 0; i < names.size(); ++i) ticks.push_back(static_cast<double>(i));
+  if (!names.empty()) return ticks;
   if (!(to > from) || !std::isfinite(to - from) || (logarithmic && !(from > 0))) return ticks;
   if (logarithmic) {
     // 1, 2, 5 of each decade; of long axes decades alone.
@@ -44,6 +46,7 @@ std::vector<double> Axis::ticks() const {
 
 std::string Axis::tickText(double value) const {
   if (std::abs(value) < 1e-12) value = 0;
+  if (!names.empty()) return names.at(static_cast<size_t>(value));
   return percent ? fmt::format("{:.4g}%", 100 * value) : fmt::format("{:.4g}", value);
 }
 
@@ -116,6 +119,12 @@ void Plot::whisker(Point from, Point to, const std::string& style) {
 
 std::string Plot::svg() const {
   return fmt::format("<svg viewBox='0 0 {} {}' role='img'>{}</svg>", kWidth, kHeight, body_);
+}
+
+std::string Plot::svgFile(const std::string& style) const {
+  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' "
+                     "height='{1}'><style>{2}</style>{3}</svg>\n",
+                     kWidth, kHeight, style, body_);
 }
 
 } // namespace isophote::cli

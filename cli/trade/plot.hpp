@@ -11,7 +11,8 @@ struct Axis {
   double from = 0; ///< below `to`; positive where logarithmic
   double to = 1;
   bool logarithmic = false;
-  bool percent = false; ///< ticks are written as percentages
+  bool percent = false;           ///< ticks are written as percentages
+  std::vector<std::string> names; ///< ticks at 0, 1, 2 …, where there are any, in place of round values
 
   /// 0 at `from`, 1 at `to`; beyond them limited to a little outside.
   [[nodiscard]] double position(double value) const;
@@ -37,6 +38,8 @@ public:
   void mark(Point point, const std::string& style, const std::string& title, const std::string& label = "");
   void whisker(Point from, Point to, const std::string& style);
   [[nodiscard]] std::string svg() const;
+  /// A file of its own. @param style  the style sheet
+  [[nodiscard]] std::string svgFile(const std::string& style) const;
 
 private:
   [[nodiscard]] double pixelX(double value) const;

@@ -27,7 +27,7 @@ float lobesShare(const SurfaceBsdf bsdf) {
 }
 
 // Width of the facets whose normals are drawn: those of the base.
-vec2 techniqueWidth(const SurfaceBsdf bsdf) { return max(bsdf.base.width, vec2(kMirrorAlpha)); }
+vec2 techniqueWidth(const SurfaceBsdf bsdf) { return max(bsdf.base.width, vec2(kNarrowestAlpha)); }
 
 /// Returns the density of a technique's directions above the surface, per steradian of wi.
 ///

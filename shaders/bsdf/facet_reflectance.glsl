@@ -32,7 +32,7 @@ bool reflectsExactly(const MetallicRoughness m) { return kFresnel == kFresnelExa
 vec3 opaqueReflectance(const MetallicRoughness m, const float cosine) {
   if (!reflectsExactly(m)) return fresnelSchlick(m.glassF0, vec3(m.glassF90), cosine);
   const float share = grazingShare(fresnelDielectric(cosine, m.ior), m.ior);
-  return m.glassF0 + (vec3(m.glassF90) - m.glassF0) * share;
+  return max(m.glassF0 + (vec3(m.glassF90) - m.glassF0) * share, vec3(0.0));
 }
 
 /// What facets other than glass reflect.
@@ -76,7 +76,8 @@ vec3 glassReflectance(const MetallicRoughness m, const float cosine) {
   const float reflectance =
       kFresnel == kFresnelSchlick ? schlickDielectric(cosine, m.eta) : fresnelDielectric(cosine, m.eta);
   if (reflectance >= 1.0) return vec3(1.0);
-  return m.glassF0 + (vec3(m.glassF90) - m.glassF0) * grazingShare(reflectance, m.eta);
+  const float share = grazingShare(reflectance, m.eta);
+  return max(m.glassF0 + (vec3(m.glassF90) - m.glassF0) * share, vec3(0.0)); // f0 may be less than eta's
 }
 
 /// What the facets under one cosine do with light.

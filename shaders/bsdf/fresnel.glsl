@@ -49,11 +49,13 @@ float schlickDielectric(const float cosI, const float eta) {
   return mix(amplitude * amplitude, 1.0, x2 * x2 * x);
 }
 
-/// How far a reflectance at the boundary of index ratio eta has come from normal to grazing incidence, in [0, 1].
+/// How far a reflectance at the boundary of index ratio eta has come from normal to grazing incidence: at most 1. Below
+/// 0 on the way there where the index is above 3 or so, as the reflectance of polarized light parallel to the plane of
+/// incidence falls by more than the other rises.
 float grazingShare(const float reflectance, const float eta) {
   const float amplitude = (eta - 1.0) / (eta + 1.0);
   const float normal = amplitude * amplitude;
-  return max((reflectance - normal) / (1.0 - normal), 0.0);
+  return (reflectance - normal) / (1.0 - normal);
 }
 
 /// Reflectance of unpolarized light at the boundary between a dielectric and a conductor.

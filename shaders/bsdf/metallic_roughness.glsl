@@ -109,10 +109,10 @@ void setExactAlbedo(inout MetallicRoughness m, const float ior, const uint table
 void setAnisotropy(inout MetallicRoughness m, const float strength, const uint table) {
   if (strength <= 0.0) return;
   const vec2 width = vec2(mix(m.alpha, 1.0, strength * strength), m.alpha);
-  if (width.x < kMirrorAlpha) return;
+  if (width.x < kNarrowestAlpha) return;
   m.grain = vec2(sqrt(m.alpha), strength);
   m.anisotropicAlbedo = table;
-  m.width = max(width, vec2(kMirrorAlpha));
+  m.width = max(width, vec2(kNarrowestAlpha));
   m.alpha = sqrt(m.width.x * m.width.y);
 }
 

@@ -24,6 +24,11 @@ vec3 clampSample(const RenderRef render, const uint pixel, const vec3 radiance, 
   return kept;
 }
 
+// Whether a sum of values that are not negative has left the range of 63 bits.
+bool isFull(const int64_t before, const int64_t added) {
+  return uint64_t(before) + uint64_t(added) > 0x7ffffffffffffffful;
+}
+
 // Of a path that was followed beyond the depth limit: the radiance within it; what it found beyond goes to the ledger,
 // in the name of all samples.
 vec3 withinDepth(const RenderRef render, const uint slot, const uint pixel, const vec3 radiance, const uvec4 dither) {
@@ -58,9 +63,13 @@ void addSample(const uint slot, const PathState path) {
   const vec3 scaled = radiance * render.view.radianceScale;
   if (any(greaterThan(scaled, vec3(kFixedPointLimit)))) countStatus(kStatusClipped);
   ReplicateRef sums = ReplicateRef(render.view.replicates);
-  atomicAdd(sums.items[index].red, toFixedPoint(scaled.x, dither.x));
-  atomicAdd(sums.items[index].green, toFixedPoint(scaled.y, dither.y));
-  atomicAdd(sums.items[index].blue, toFixedPoint(scaled.z, dither.z));
+  const int64_t red = toFixedPoint(scaled.x, dither.x);
+  const int64_t green = toFixedPoint(scaled.y, dither.y);
+  const int64_t blue = toFixedPoint(scaled.z, dither.z);
+  const bool redFull = isFull(atomicAdd(sums.items[index].red, red), red);
+  const bool greenFull = isFull(atomicAdd(sums.items[index].green, green), green);
+  const bool blueFull = isFull(atomicAdd(sums.items[index].blue, blue), blue);
+  if (redFull || greenFull || blueFull) countStatus(kStatusClipped);
   atomicAdd(sums.items[index].count, 1u);
   if (path.hit != 0u) atomicAdd(sums.items[index].hitCount, 1u);
 }

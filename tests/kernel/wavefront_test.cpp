@@ -175,6 +175,19 @@ TEST(Accumulate, FreesSlotsAndCountsWhatItRefuses) {
   }
 }
 
+// The image is wrong then, and says so.
+TEST(Accumulate, SumsThatLeaveSixtyThreeBitsAreCounted) {
+  Stage stage(squareScene(), 5);
+  fillQueue(stage, gpu::kQueueFinished, 5);
+  for (uint32_t i = 0; i < 5; ++i) {
+    stage.paths[i] = {};
+    stage.paths[i].sampleIndex = 8 * i;        // one replicate
+    stage.paths[i].radiance = {1, 0x1p25f, 0}; // 2^61 units of green
+  }
+  stage.run(stage.kernels.accumulate, 1);
+  EXPECT_EQ(stage.wave.status[gpu::kStatusClipped], 2u); // the fourth sample and the fifth
+}
+
 // Test 51 of the reference list: a constant comes out as itself after 1e8 samples.
 TEST(Accumulate, T51ConstantsSurviveAHundredMillionSamples) {
   constexpr uint32_t kSlots = 1u << 20;

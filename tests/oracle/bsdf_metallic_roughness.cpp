@@ -216,7 +216,7 @@ glm::dvec3 bareGlassReflectance(const MetallicRoughness& m, double cosine) {
   const double exact = fresnelDielectric(cosine, m.innerIor / m.outerIor);
   if (exact >= 1) return glm::dvec3(1); // total internal reflection, or grazing
   const double normal = fresnelDielectric(1, m.innerIor / m.outerIor);
-  return glm::mix(m.glassF0, glm::dvec3(m.glassF90), std::max(0.0, (exact - normal) / (1 - normal)));
+  return glm::max(glm::mix(m.glassF0, glm::dvec3(m.glassF90), (exact - normal) / (1 - normal)), 0.0);
 }
 
 glm::dvec3 glassFilm(const MetallicRoughness& m, double cosine) {
@@ -337,7 +337,7 @@ MetallicRoughness withDiffuseTransmission(MetallicRoughness m, double share, con
 
 MetallicRoughness withAnisotropy(MetallicRoughness m, double strength) {
   const double wide = std::lerp(m.alpha, 1.0, strength * strength);
-  const double limit = double(gpu::kMirrorAlpha);
+  const double limit = double(gpu::kNarrowestAlpha);
   if (strength == 0 || wide < limit) return m;
   m.width = {wide, std::max(m.alpha, limit)};
   m.alpha = std::sqrt(m.width.x * m.width.y);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "envelope/closed_forms.hpp"
 #include "support/render.hpp"
 #include "support/scenes.hpp"
 
@@ -12,19 +13,6 @@ namespace isophote {
 namespace {
 
 using namespace isophote::test;
-
-constexpr double kPi = 3.14159265358979323846;
-
-/// Irradiance at the origin with normal +y from a polygon of radiance 1 above the horizon (Lambert 1760): half the sum
-/// of edge angles times the cosine between the edge's plane normal and the receiver's.
-double polygonIrradiance(const std::vector<glm::dvec3>& vertices) {
-  double sum = 0;
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    const glm::dvec3 a = glm::normalize(vertices[i]), b = glm::normalize(vertices[(i + 1) % vertices.size()]);
-    sum += std::acos(glm::clamp(glm::dot(a, b), -1.0, 1.0)) * glm::normalize(glm::cross(a, b)).y;
-  }
-  return std::abs(sum) / 2;
-}
 
 /// Reflectance 1: radiance is irradiance / pi. 64 pixels of the same tiny view are the replicates.
 Image renderSensor(const Scene& scene, glm::dvec3 point, LightSampling mode, uint32_t samples,

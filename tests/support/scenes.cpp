@@ -7,39 +7,6 @@
 
 namespace isophote::test {
 
-Scene boxFurnace(glm::vec3 Le, glm::vec3 rho) {
-  Scene scene;
-  scene.name = "box furnace";
-  const uint32_t walls = addMaterial(scene, emitter(Le, rho));
-  addPrimitive(scene, box({-1, -0.8, -1.5}, {1, 0.8, 1.5}, true, walls));
-  return scene;
-}
-
-Camera boxFurnaceCamera() { return lookAt({0.31, -0.17, 0.9}, {-0.2, 0.13, -0.6}, 1.2); }
-
-Scene squareLightOverFloor(float Le) {
-  Scene scene;
-  scene.name = "square light";
-  const uint32_t floor = addMaterial(scene, lambert(glm::vec3(1)));
-  const uint32_t light = addMaterial(scene, emitter(glm::vec3(Le)));
-  addPrimitive(scene, quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, floor));
-  addPrimitive(scene, quad({-0.5, 1, -0.5}, {1, 0, 0}, {0, 0, 1}, light));
-  return scene;
-}
-
-Camera sensorAt(glm::dvec3 point) {
-  Camera camera = orthographicLookAt(point + glm::dvec3(0, 0.5, 0), point, 1e-6, 1e-6);
-  return camera;
-}
-
-Scene lambertFloor(glm::vec3 rho, double halfSize) {
-  Scene scene;
-  scene.name = "floor";
-  const uint32_t floor = addMaterial(scene, lambert(rho));
-  addPrimitive(scene, quad({-halfSize, 0, halfSize}, {2 * halfSize, 0, 0}, {0, 0, -2 * halfSize}, floor));
-  return scene;
-}
-
 Scene sphereWithPointLight(float intensity, float rho, uint32_t rings) {
   Scene scene;
   scene.name = "sphere with point light";

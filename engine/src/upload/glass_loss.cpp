@@ -52,7 +52,7 @@ std::vector<glm::vec2> lossFrom(double eta, const GlassSurface& glass, const Gla
     const double roughness = r * kSpacing;
     const bool skipped =
         r == 0 || roughness < double(glass.roughness.x) - kSpacing || roughness > double(glass.roughness.y) + kSpacing;
-    const Facets facets(model.facets, glm::dvec2(std::max(square(roughness), double(gpu::kMirrorAlpha))));
+    const Facets facets(model.facets, glm::dvec2(std::max(square(roughness), double(gpu::kNarrowestAlpha))));
     std::array<glm::dvec2, gpu::kGlassLossMuCount> row;
     for (uint32_t c = 0; c < gpu::kGlassLossMuCount; ++c) {
       const double mu = square(c / double(gpu::kGlassLossMuCount - 1));

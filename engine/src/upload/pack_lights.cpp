@@ -17,6 +17,11 @@ namespace {
 constexpr double kSmallestSine = 1e-4;
 constexpr double kPi = 3.14159265358979323846;
 
+// Point lights count with their irradiance at the scene's radius over this. At a thousandth of that distance, where
+// they are a million times as bright, a pixel still holds 1024 samples; at a thousand times of it, 2^-20 as bright, a
+// sample's rounding is 1e-5 of it.
+constexpr double kNearLamp = 256;
+
 double largestComponent(const glm::dvec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 // Collects the lights' bounds (luminance) in the order of light indices and the largest radiance that one event can
@@ -33,7 +38,8 @@ public:
     addUnlit();
     packed_.lightAlias = buildAliasTable(powers());
     if (packed_.features.has(Feature::kHasLightTree)) buildTree();
-    packed_.emitterScale = largest_ > 0 ? powerOfTwoAbove(largest_) : 1.0f;
+    const double brightest = std::max(largest_, received_);
+    packed_.emitterScale = brightest > 0 ? powerOfTwoAbove(brightest) : 1.0f;
   }
 
 private:
@@ -181,9 +187,9 @@ private:
       break;
     }
     lights_.push_back(bound);
-    // Reflected radiance is about the irradiance; of a point light that at the distance of one scene radius.
-    const double irradiance = largestComponent(light.intensity);
-    largest_ = std::max(largest_, light.kind == LightKind::Directional ? irradiance : irradiance / squaredRadius);
+    // Reflected radiance is about the irradiance of all lights together: one sample of a light stands for all.
+    const double strength = largestComponent(light.intensity);
+    received_ += light.kind == LightKind::Directional ? strength : strength * kNearLamp * kNearLamp / squaredRadius;
   }
 
   // Radiance of a light with a size: the intensity over the sphere's cross section, or the irradiance over the disk's
@@ -232,7 +238,8 @@ private:
   PackedScene& packed_;
   EmissionEstimator emission_;
   std::vector<LightBound> lights_; // in the order of light indices
-  double largest_ = 0;
+  double largest_ = 0;             // radiance that the camera can see
+  double received_ = 0;            // irradiance by lights without a surface of their own
 };
 
 } // namespace
