@@ -212,7 +212,7 @@ TEST(Bsdf, SamplesAreFiniteForExtremeRandomNumbersAndDirections) {
 
 TEST(Bsdf, MirrorReflectsExactlyAndKeepsTheDiffuseLobeContinuous) {
   for (const double cosine : {1.0, 0.6, 0.1}) {
-    BsdfCase material = test::dielectric(0.02f); // alpha 4e-4
+    BsdfCase material = test::dielectric(0.005f); // alpha 2.5e-5
     material.wo = test::directionOf(cosine, 1);
     const oracle::MetallicRoughness m = test::oracleMaterial(material);
     const double grazing = std::pow(1 - double(material.wo.z), 5);
