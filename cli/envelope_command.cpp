@@ -63,8 +63,10 @@ std::vector<Sweep> chosenSweeps(const std::vector<std::string>& only) {
   return chosen;
 }
 
-/// The ends and the tame value.
+/// The ends and the tame value, without what takes long.
 void shorten(Sweep& sweep) {
+  std::erase_if(sweep.values,
+                [&](double value) { return std::count(sweep.slow.begin(), sweep.slow.end(), value) > 0; });
   std::vector<double> kept;
   for (const double value : sweep.values) {
     if (value == sweep.values.front() || value == sweep.values.back() || value == sweep.tame) kept.push_back(value);

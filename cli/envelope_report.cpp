@@ -20,19 +20,24 @@ constexpr double kLeastShown = 1e-8, kMostShown = 1;
 constexpr const char* kStyle =
     "svg{background:#fff;font:11px system-ui,sans-serif}.grid{stroke:#e3e6ea;fill:none}.tick{fill:#556}"
     ".middle{text-anchor:middle}.end{text-anchor:end}.line{fill:none;stroke-width:1.6;stroke:#2457c5}"
-    ".limit{stroke:#15803d;stroke-dasharray:5 4;stroke-width:1.2}text.limit{stroke:none;fill:#15803d}"
+    ".limit{stroke:#15803d;stroke-dasharray:5 "
+    "4;stroke-width:1.2}text.limit{stroke:none;fill:#15803d}circle.limit{display:none}"
     ".whisker{stroke:#2457c5;opacity:.6}circle.mark{fill:#2457c5}circle.bad{fill:#b91c1c}text.bad{fill:#b91c1c}";
 
+/// Short: 1e-8, 16384, 2^20, 1+1e-06.
 std::string number(double value) {
-  if (const double power = std::log2(value); value > 0 && power == std::round(power) && std::abs(power) >= 3)
-    return fmt::format("2^{:.0f}", power);
-  return std::abs(value - 1) < 1e-3 && value != 1 ? fmt::format("1{:+.0e}", value - 1) : fmt::format("{:.4g}", value);
+  const double power = value > 0 ? std::log2(value) : 0.5;
+  if (power == std::round(power) && (power <= -5 || power >= 17)) return fmt::format("2^{:.0f}", power);
+  if (std::abs(value - 1) < 1e-3 && value != 1) return fmt::format("1{:+.0e}", value - 1);
+  std::string text = fmt::format("{:.5g}", value);
+  const size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  return fmt::format("{}e{}", text.substr(0, exponent), std::stoi(text.substr(exponent + 1)));
 }
 
-std::string rangeText(const envelope::Sweep& sweep, const Range& range) {
+std::string rangeText(const Range& range) {
   if (!range.any) return "nowhere";
   if (range.fromStart && range.toEnd) return fmt::format("**{} to {}**, all", number(range.first), number(range.last));
-  (void)sweep;
   return fmt::format("{} to {}", number(range.first), number(range.last));
 }
 
@@ -120,6 +125,7 @@ std::string envelopeCurve(const MeasuredSweep& measured) {
   Plot plot(x, {.label = "relative error", .from = kLeastShown, .to = kMostShown, .logarithmic = true});
   for (const double limit : kLimits) {
     plot.line({{x.from, limit}, {x.to, limit}}, "limit");
+    plot.mark({x.to, limit}, "limit", "", fmt::format("{:g}%", 100 * limit));
   }
   std::vector<Plot::Point> curve;
   for (size_t i = 0; i < points.size(); ++i) {
@@ -155,9 +161,8 @@ std::string envelopePage(const std::vector<MeasuredSweep>& sweeps, const Envelop
     double largest = 0;
     for (const Point& p : measured.points) largest = std::max(largest, p.bound());
     text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} |\n", measured.sweep.name, measured.sweep.quantity,
-                        rangeText(measured.sweep, rangeBelow(measured.sweep, measured.points, kLimits[0])),
-                        rangeText(measured.sweep, rangeBelow(measured.sweep, measured.points, kLimits[1])),
-                        percent(largest));
+                        rangeText(rangeBelow(measured.sweep, measured.points, kLimits[0])),
+                        rangeText(rangeBelow(measured.sweep, measured.points, kLimits[1])), percent(largest));
   }
   for (const MeasuredSweep& measured : sweeps) {
     text += fmt::format("\n## {0}\n\n{1}.\n\n![{0}]({0}.svg)\n", measured.sweep.name, measured.sweep.scene);
