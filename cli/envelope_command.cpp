@@ -30,7 +30,7 @@ constexpr const char* kFiles[] = {"envelope.json", "envelope.csv", "README.md"};
 constexpr uint32_t kQuickDivisor = 16;
 
 constexpr const char* kExamples = R"(Examples:
-  isophote envelope -o docs/envelope                          all sweeps; a quarter of an hour on two cores
+  isophote envelope -o docs/envelope                          all sweeps; minutes
   isophote envelope -o envelope --quick                       the ends of each, a minute
   isophote envelope -o envelope --only scale --only ior       these again, beside what the folder holds of others
 
@@ -82,7 +82,8 @@ void prepareDirectory(const std::string& directory) {
 }
 
 std::string commandLine(const EnvelopeOptions& options) {
-  std::string text = "isophote envelope -o " + std::filesystem::path(options.directory).filename().string();
+  const std::filesystem::path directory = options.directory;
+  std::string text = "isophote envelope -o " + (directory.is_absolute() ? directory.filename() : directory).string();
   if (options.quick) text += " --quick";
   return text;
 }

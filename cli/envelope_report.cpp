@@ -24,15 +24,19 @@ constexpr const char* kStyle =
     "4;stroke-width:1.2}text.limit{stroke:none;fill:#15803d}circle.limit{display:none}"
     ".whisker{stroke:#2457c5;opacity:.6}circle.mark{fill:#2457c5}circle.bad{fill:#b91c1c}text.bad{fill:#b91c1c}";
 
-/// Short: 1e-8, 16384, 2^20, 1+1e-06.
-std::string number(double value) {
-  const double power = value > 0 ? std::log2(value) : 0.5;
-  if (power == std::round(power) && (power <= -5 || power >= 17)) return fmt::format("2^{:.0f}", power);
-  if (std::abs(value - 1) < 1e-3 && value != 1) return fmt::format("1{:+.0e}", value - 1);
-  std::string text = fmt::format("{:.5g}", value);
+/// `1e-08` as 1e-8.
+std::string shortExponent(const std::string& text) {
   const size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
   return fmt::format("{}e{}", text.substr(0, exponent), std::stoi(text.substr(exponent + 1)));
+}
+
+/// Short: 1e-8, 16384, 2^20, 1+1e-6.
+std::string number(double value) {
+  const double power = value > 0 ? std::log2(value) : 0.5;
+  if (power == std::round(power) && (power <= -5 || power >= 17)) return fmt::format("2^{:.0f}", power);
+  if (std::abs(value - 1) < 1e-3 && value != 1) return shortExponent(fmt::format("1{:+.0e}", value - 1));
+  return shortExponent(fmt::format("{:.5g}", value));
 }
 
 std::string rangeText(const Range& range) {
@@ -47,7 +51,11 @@ Json rangeJson(const Range& range) {
 }
 
 /// The largest error there is beyond doubt, in percent.
-std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.2g}%", 100 * share) : "none"; }
+std::string percent(double share) {
+  if (!std::isfinite(share)) return "failed";
+  return share < 0.995 ? shortExponent(fmt::format("{:.2g}", 100 * share)).append("%")
+                       : fmt::format("{:.0f}%", 100 * share);
+}
 
 } // namespace
 
@@ -148,13 +156,14 @@ std::string envelopeCurve(const MeasuredSweep& measured) {
 std::string envelopePage(const std::vector<MeasuredSweep>& sweeps, const EnvelopeContext& context) {
   std::string text = "# Envelope\n\n";
   text +=
-      fmt::format("How far each quantity can go before the image is wrong. Written by `{}` in {:.0f} s on {} ({}).\n\n"
+      fmt::format("How far each quantity can go before the image is wrong. Written by `{}` on {} ({}); its points took "
+                  "{:.0f} s together.\n\n"
                   "Every image here has a known answer. An error counts as below a limit only where the upper end of "
                   "its 95% interval "
                   "is; the range is of the values measured, without a gap, around a tame one. Dashed lines in the "
                   "curves are 0.1% and "
                   "1%, whiskers the intervals; an error below 1e-8 is drawn there.\n\n",
-                  context.command, context.seconds, context.device, context.driver);
+                  context.command, context.device, context.driver, context.seconds);
   if (context.interrupted) text += "**Interrupted: this is what was measured until then.**\n\n";
   text += "| sweep | quantity | error below 0.1% | below 1% | largest bound |\n|---|---|---|---|---|\n";
   for (const MeasuredSweep& measured : sweeps) {
