@@ -30,7 +30,7 @@ constexpr const char* kFiles[] = {"envelope.json", "envelope.csv", "README.md"};
 constexpr uint32_t kQuickDivisor = 16;
 
 constexpr const char* kExamples = R"(Examples:
-  isophote envelope -o docs/envelope                          all sweeps; a quarter of an hour on two cores
+  isophote envelope -o docs/envelope                          all sweeps; minutes
   isophote envelope -o envelope --quick                       the ends of each, a minute
   isophote envelope -o envelope --only scale --only ior       these again, beside what the folder holds of others
 
@@ -63,8 +63,10 @@ std::vector<Sweep> chosenSweeps(const std::vector<std::string>& only) {
   return chosen;
 }
 
-/// The ends and the tame value.
+/// The ends and the tame value, without what takes long.
 void shorten(Sweep& sweep) {
+  std::erase_if(sweep.values,
+                [&](double value) { return std::count(sweep.slow.begin(), sweep.slow.end(), value) > 0; });
   std::vector<double> kept;
   for (const double value : sweep.values) {
     if (value == sweep.values.front() || value == sweep.values.back() || value == sweep.tame) kept.push_back(value);
@@ -80,7 +82,8 @@ void prepareDirectory(const std::string& directory) {
 }
 
 std::string commandLine(const EnvelopeOptions& options) {
-  std::string text = "isophote envelope -o " + std::filesystem::path(options.directory).filename().string();
+  const std::filesystem::path directory = options.directory;
+  std::string text = "isophote envelope -o " + (directory.is_absolute() ? directory.filename() : directory).string();
   if (options.quick) text += " --quick";
   return text;
 }

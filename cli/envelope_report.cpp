@@ -20,19 +20,28 @@ constexpr double kLeastShown = 1e-8, kMostShown = 1;
 constexpr const char* kStyle =
     "svg{background:#fff;font:11px system-ui,sans-serif}.grid{stroke:#e3e6ea;fill:none}.tick{fill:#556}"
     ".middle{text-anchor:middle}.end{text-anchor:end}.line{fill:none;stroke-width:1.6;stroke:#2457c5}"
-    ".limit{stroke:#15803d;stroke-dasharray:5 4;stroke-width:1.2}text.limit{stroke:none;fill:#15803d}"
+    ".limit{stroke:#15803d;stroke-dasharray:5 "
+    "4;stroke-width:1.2}text.limit{stroke:none;fill:#15803d}circle.limit{display:none}"
     ".whisker{stroke:#2457c5;opacity:.6}circle.mark{fill:#2457c5}circle.bad{fill:#b91c1c}text.bad{fill:#b91c1c}";
 
-std::string number(double value) {
-  if (const double power = std::log2(value); value > 0 && power == std::round(power) && std::abs(power) >= 3)
-    return fmt::format("2^{:.0f}", power);
-  return std::abs(value - 1) < 1e-3 && value != 1 ? fmt::format("1{:+.0e}", value - 1) : fmt::format("{:.4g}", value);
+/// `1e-08` as 1e-8.
+std::string shortExponent(const std::string& text) {
+  const size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  return fmt::format("{}e{}", text.substr(0, exponent), std::stoi(text.substr(exponent + 1)));
 }
 
-std::string rangeText(const envelope::Sweep& sweep, const Range& range) {
+/// Short: 1e-8, 16384, 2^20, 1+1e-6.
+std::string number(double value) {
+  const double power = value > 0 ? std::log2(value) : 0.5;
+  if (power == std::round(power) && (power <= -5 || power >= 17)) return fmt::format("2^{:.0f}", power);
+  if (std::abs(value - 1) < 1e-3 && value != 1) return shortExponent(fmt::format("1{:+.0e}", value - 1));
+  return shortExponent(fmt::format("{:.5g}", value));
+}
+
+std::string rangeText(const Range& range) {
   if (!range.any) return "nowhere";
   if (range.fromStart && range.toEnd) return fmt::format("**{} to {}**, all", number(range.first), number(range.last));
-  (void)sweep;
   return fmt::format("{} to {}", number(range.first), number(range.last));
 }
 
@@ -42,7 +51,11 @@ Json rangeJson(const Range& range) {
 }
 
 /// The largest error there is beyond doubt, in percent.
-std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.2g}%", 100 * share) : "none"; }
+std::string percent(double share) {
+  if (!std::isfinite(share)) return "failed";
+  return share < 0.995 ? shortExponent(fmt::format("{:.2g}", 100 * share)).append("%")
+                       : fmt::format("{:.0f}%", 100 * share);
+}
 
 } // namespace
 
@@ -120,6 +133,7 @@ std::string envelopeCurve(const MeasuredSweep& measured) {
   Plot plot(x, {.label = "relative error", .from = kLeastShown, .to = kMostShown, .logarithmic = true});
   for (const double limit : kLimits) {
     plot.line({{x.from, limit}, {x.to, limit}}, "limit");
+    plot.mark({x.to, limit}, "limit", "", fmt::format("{:g}%", 100 * limit));
   }
   std::vector<Plot::Point> curve;
   for (size_t i = 0; i < points.size(); ++i) {
@@ -142,22 +156,22 @@ std::string envelopeCurve(const MeasuredSweep& measured) {
 std::string envelopePage(const std::vector<MeasuredSweep>& sweeps, const EnvelopeContext& context) {
   std::string text = "# Envelope\n\n";
   text +=
-      fmt::format("How far each quantity can go before the image is wrong. Written by `{}` in {:.0f} s on {} ({}).\n\n"
+      fmt::format("How far each quantity can go before the image is wrong. Written by `{}` on {} ({}); its points took "
+                  "{:.0f} s together.\n\n"
                   "Every image here has a known answer. An error counts as below a limit only where the upper end of "
                   "its 95% interval "
                   "is; the range is of the values measured, without a gap, around a tame one. Dashed lines in the "
                   "curves are 0.1% and "
                   "1%, whiskers the intervals; an error below 1e-8 is drawn there.\n\n",
-                  context.command, context.seconds, context.device, context.driver);
+                  context.command, context.device, context.driver, context.seconds);
   if (context.interrupted) text += "**Interrupted: this is what was measured until then.**\n\n";
   text += "| sweep | quantity | error below 0.1% | below 1% | largest bound |\n|---|---|---|---|---|\n";
   for (const MeasuredSweep& measured : sweeps) {
     double largest = 0;
     for (const Point& p : measured.points) largest = std::max(largest, p.bound());
     text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} |\n", measured.sweep.name, measured.sweep.quantity,
-                        rangeText(measured.sweep, rangeBelow(measured.sweep, measured.points, kLimits[0])),
-                        rangeText(measured.sweep, rangeBelow(measured.sweep, measured.points, kLimits[1])),
-                        percent(largest));
+                        rangeText(rangeBelow(measured.sweep, measured.points, kLimits[0])),
+                        rangeText(rangeBelow(measured.sweep, measured.points, kLimits[1])), percent(largest));
   }
   for (const MeasuredSweep& measured : sweeps) {
     text += fmt::format("\n## {0}\n\n{1}.\n\n![{0}]({0}.svg)\n", measured.sweep.name, measured.sweep.scene);

@@ -107,6 +107,7 @@ void addImageSweeps(std::vector<Sweep>& sweeps) {
                     {1, 16, 256, 4096, 65536, 1 << 20, 1 << 23, 1 << 26},
                     16,
                     constantSky});
+  sweeps.back().slow = {1 << 23, 1 << 26};
   Sweep accumulation{"accumulation",
                      "samples per pixel",
                      "A sky of 0.1, a film added to itself: 0.1",

@@ -117,6 +117,7 @@ void addLightSweeps(std::vector<Sweep>& sweeps) {
                     {1, 10, 100, 1e3, 1e4, 1e5, 1e6},
                     1,
                     lamps});
+  sweeps.back().slow = {1e6};
 }
 
 } // namespace isophote::envelope

@@ -103,6 +103,7 @@ void addMediumSweeps(std::vector<Sweep>& sweeps) {
                     {1e-8, 1e-6, 1e-4, 1e-2, 0.1, 1, 10, 100, 1e3, 1e4},
                     1,
                     scatteringAll});
+  sweeps.back().slow = {1e3, 1e4};
   sweeps.push_back({"single-scattering", quantity, "The sun scattered back once by a block: an integral over its depth",
                     depths, 1, scatteringOnce});
 }

@@ -53,12 +53,14 @@ void addSeriesSweeps(std::vector<Sweep>& sweeps) {
                     {0, 1, 10, 100, 1000, 10000},
                     1,
                     lossless});
+  sweeps.back().slow = {10000};
   sweeps.push_back({"albedo",
                     "reflectance",
                     "A room that emits what it absorbs, the geometric series cut after at most 10,000 scatterings",
                     {0, 0.5, 0.9, 0.99, 0.999, 0.9999, 0.99999, 0.999999},
                     0.5,
                     series});
+  sweeps.back().slow = {0.999, 0.9999, 0.99999, 0.999999};
   sweeps.push_back({"albedo-roulette",
                     "reflectance",
                     "A room that emits what it absorbs, paths ended by Russian roulette: 1; ended by noise",

@@ -20,6 +20,7 @@ struct Sweep {
   std::function<Case(double value)> at;
   /// In place of rendering `at`: for what is no render.
   std::function<Point(const Device& device, double value)> measured = {};
+  std::vector<double> slow = {}; ///< values that take long whatever the effort
 };
 
 // One function a file; each adds its sweeps.

@@ -50,7 +50,7 @@ float schlickDielectric(const float cosI, const float eta) {
 }
 
 /// How far a reflectance at the boundary of index ratio eta has come from normal to grazing incidence: at most 1. Below
-/// 0 on the way there where the index is above 3 or so, as the reflectance of polarized light parallel to the plane of
+/// 0 on the way there where the index is above 3.7, as the reflectance of polarized light parallel to the plane of
 /// incidence falls by more than the other rises.
 float grazingShare(const float reflectance, const float eta) {
   const float amplitude = (eta - 1.0) / (eta + 1.0);
