@@ -108,7 +108,8 @@ public:
     Film film(device_, {.width = view_.width,
                         .height = view_.height,
                         .crop = tile,
-                        .ledger = receipt_.settings.estimator.clamp < kNoClamp});
+                        .clampLedger = receipt_.settings.estimator.clamp < kNoClamp,
+                        .depthLedger = image.find("beyond.R") != nullptr});
     for (const SampleRange& range : receipt_.samples) {
       if (!tracer_.render(view_.camera, film, range, [](const Progress&) { return !interrupted(); })) return false;
     }
