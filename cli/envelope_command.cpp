@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,7 +32,7 @@ constexpr uint32_t kQuickDivisor = 16;
 constexpr const char* kExamples = R"(Examples:
   isophote envelope -o docs/envelope                          all sweeps; a quarter of an hour on two cores
   isophote envelope -o envelope --quick                       the ends of each, a minute
-  isophote envelope -o envelope --only scale --only ior
+  isophote envelope -o envelope --only scale --only ior       these again, beside what the folder holds of others
 
 Each sweep renders a scene whose image is known, at values on the way to an extreme. Ctrl-C keeps what was measured
 (exit code 130).)";
@@ -80,7 +82,6 @@ void prepareDirectory(const std::string& directory) {
 std::string commandLine(const EnvelopeOptions& options) {
   std::string text = "isophote envelope -o " + std::filesystem::path(options.directory).filename().string();
   if (options.quick) text += " --quick";
-  for (const std::string& name : options.only) text += " --only " + name;
   return text;
 }
 
@@ -134,6 +135,31 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+double secondsOf(const std::vector<MeasuredSweep>& sweeps) {
+  double seconds = 0;
+  for (const MeasuredSweep& measured : sweeps) {
+    for (const Point& point : measured.points) seconds += point.seconds;
+  }
+  return seconds;
+}
+
+/// With what the folder holds of other sweeps from earlier runs, in the order of the pages.
+std::vector<MeasuredSweep> withEarlierOnes(std::vector<MeasuredSweep> measured, const std::string& directory) {
+  std::ifstream in(std::filesystem::path(directory) / kFiles[0]);
+  const std::string json{std::istreambuf_iterator<char>(in), {}};
+  const std::vector<Sweep> all = envelope::allSweeps();
+  const auto indexOf = [&](const MeasuredSweep& m) {
+    return std::find_if(all.begin(), all.end(), [&](const Sweep& s) { return s.name == m.sweep.name; }) - all.begin();
+  };
+  for (const MeasuredSweep& earlier : measuredBefore(json, all)) {
+    if (std::none_of(measured.begin(), measured.end(),
+                     [&](const MeasuredSweep& m) { return m.sweep.name == earlier.sweep.name; }))
+      measured.push_back(earlier);
+  }
+  std::sort(measured.begin(), measured.end(), [&](const auto& a, const auto& b) { return indexOf(a) < indexOf(b); });
+  return measured;
+}
+
 void writeReport(const std::vector<MeasuredSweep>& sweeps, const EnvelopeContext& context,
                  const std::string& directory) {
   const std::filesystem::path folder = directory;
@@ -152,11 +178,12 @@ int runEnvelope(const EnvelopeOptions& options) {
   const VulkanInstance instance;
   const Device device(instance, {.selector = options.device});
   EnvelopeRun run(device, options);
-  const std::vector<MeasuredSweep> measured = run.run(sweeps);
+  std::vector<MeasuredSweep> measured = run.run(sweeps);
+  if (!options.only.empty()) measured = withEarlierOnes(std::move(measured), options.directory);
   const EnvelopeContext context{.command = commandLine(options),
                                 .device = device.info().name,
                                 .driver = device.info().driver,
-                                .seconds = run.elapsed(),
+                                .seconds = secondsOf(measured),
                                 .interrupted = interrupted()};
   writeReport(measured, context, options.directory);
   if (options.json) {
@@ -181,7 +208,7 @@ void addEnvelopeCommand(CLI::App& program, Action& action) {
                    "Folder for README.md, a curve of each sweep, envelope.json and envelope.csv; made if missing")
       ->type_name("DIR")
       ->required();
-  command->add_option("--only", options->only, "This sweep alone; repeatable (all)")
+  command->add_option("--only", options->only, "This sweep alone, the folder's others are kept; repeatable (all)")
       ->type_name("NAME")
       ->allow_extra_args(false);
   command->add_flag("--quick", options->quick, "The ends and the middle of each sweep, fewer samples");

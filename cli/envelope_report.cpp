@@ -73,6 +73,33 @@ nlohmann::ordered_json envelopeJson(const std::vector<MeasuredSweep>& sweeps, co
           {"sweeps", std::move(list)}};
 }
 
+std::vector<MeasuredSweep> measuredBefore(const std::string& json, const std::vector<envelope::Sweep>& all) {
+  std::vector<MeasuredSweep> result;
+  try {
+    const Json read = Json::parse(json);
+    for (const Json& entry : read.at("sweeps")) {
+      const auto sweep = std::find_if(all.begin(), all.end(), [&](const envelope::Sweep& s) {
+        return s.name == entry.at("name").get<std::string>();
+      });
+      if (sweep == all.end()) continue;
+      MeasuredSweep& measured = result.emplace_back(*sweep);
+      for (const Json& p : entry.at("points")) {
+        Point& point = measured.points.emplace_back();
+        point.value = p.at("value");
+        point.samples = p.at("samples");
+        point.seconds = p.at("seconds");
+        point.failure = p.value("failure", std::string());
+        if (!point.failure.empty()) continue;
+        point.error = p.at("error");
+        point.halfWidth = p.at("half_width");
+      }
+    }
+  } catch (const Json::exception&) {
+    return {};
+  }
+  return result;
+}
+
 std::string envelopeCsv(const std::vector<MeasuredSweep>& sweeps) {
   std::string text = "sweep,value,error,half_width,samples,seconds,failure\n";
   for (const MeasuredSweep& measured : sweeps) {

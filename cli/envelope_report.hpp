@@ -25,6 +25,9 @@ struct EnvelopeContext {
 
 [[nodiscard]] nlohmann::ordered_json envelopeJson(const std::vector<MeasuredSweep>& sweeps,
                                                   const EnvelopeContext& context);
+/// The sweeps of `all` that an earlier run's JSON holds, with its points; none where it is not such a file.
+[[nodiscard]] std::vector<MeasuredSweep> measuredBefore(const std::string& json,
+                                                        const std::vector<envelope::Sweep>& all);
 /// One line a point.
 [[nodiscard]] std::string envelopeCsv(const std::vector<MeasuredSweep>& sweeps);
 /// A table of ranges, and the curves.

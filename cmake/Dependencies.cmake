@@ -12,6 +12,7 @@ unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(SPIRV-Tools-opt REQUIRED)
 find_package(ZLIB REQUIRED)
 pkg_check_modules(STB REQUIRED IMPORTED_TARGET GLOBAL stb)
+pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET GLOBAL libturbojpeg)
 find_program(GLSLANG glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 

@@ -29,7 +29,7 @@ struct Case {
 
 /// How hard to look.
 struct Effort {
-  double halfWidth = 2e-4;                          ///< relative; of the error bar that is good enough
+  double halfWidth = 4e-4;                          ///< relative; of the error bar that is good enough
   uint32_t divideBy = 1;                            ///< fewer samples at most
   std::function<bool()> goOn = [] { return true; }; ///< asked between submits; false ends the measurement
 };

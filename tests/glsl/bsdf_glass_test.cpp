@@ -178,7 +178,7 @@ TEST(BsdfGlass, Test8IsReciprocal) {
     for (int k = 0; k < 3; ++k) {
       const double there = double(forward[i].fCos[k]) / double(cases[i].wo.z);
       const double back = double(backward[i].fCos[k]) / -double(cases[i].wi.z) / (n * n);
-      EXPECT_NEAR(there, back, 4e-4 * there + 1e-7) << test::describe(cases[i]);
+      EXPECT_NEAR(there, back, 1e-4 * there + 1e-7) << test::describe(cases[i]);
     }
   }
 }
@@ -227,7 +227,7 @@ static void expectSamplesFollowTheDensity(size_t stride) {
       mass += probability;
     }
     const double absorbed = double(observed.back()) / double(count);
-    EXPECT_NEAR(mass + absorbed, 1, 2e-3 + 4.5 * std::sqrt(absorbed * (1 - absorbed) / double(count))) << label;
+    EXPECT_NEAR(mass + absorbed, 1, 1e-3 + 4.5 * std::sqrt(absorbed * (1 - absorbed) / double(count))) << label;
     expected.back() = double(count) * std::max(1 - mass, 0.0);
     for (size_t i = 0; i < FacetGrid::kBinCount; ++i) { // slivers share the last pool
       if (expected[i] >= 5) continue;
@@ -248,7 +248,7 @@ TEST(BsdfGlass, Test2SamplesFollowTheDensityWhichIntegratesToOneSlow) { expectSa
 
 // Multiple scattering included: midpoints over the whole sphere, for lobes that are broad enough for them.
 TEST(BsdfGlass, Test3TheDensityOverBothSidesIntegratesToOne) {
-  constexpr int kRows = 160, kColumns = 120, kSamples = 20000;
+  constexpr int kRows = 320, kColumns = 240, kSamples = 20000;
   for (const Side side : kSides) {
     BsdfCase material = test::glass(0.9f, side);
     material.wo = test::directionOf(0.7, 0.6);
@@ -358,7 +358,7 @@ TEST(BsdfGlass, Test49EveryIndexAndAngleIsFinite) {
   std::vector<BsdfCase> cases;
   std::mt19937 generator(49);
   for (const float ior : {1.0f, 1.0000001f, 1.0001f, 1.01f, 2.4f, 1e3f}) {
-    for (const float roughness : {0.0f, 0.0317f, 0.1f, 0.5f, 1.0f}) {
+    for (const float roughness : {0.0f, 0.0071f, 0.1f, 0.5f, 1.0f}) {
       for (const Side side : kSides) {
         for (int exponent = 0; exponent <= 6; ++exponent) {
           for (int i = 0; i < 200; ++i) {

@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 namespace {
 
-const glm::vec2 kAlphas[] = {{1e-3f, 1e-3f}, {3e-3f, 3e-3f}, {0.01f, 0.01f}, {0.1f, 0.1f},
+const glm::vec2 kAlphas[] = {{5e-5f, 5e-5f}, {1e-3f, 1e-3f}, {3e-3f, 3e-3f}, {0.01f, 0.01f}, {0.1f, 0.1f},
                              {0.5f, 0.5f},   {1, 1},         {0.01f, 0.5f},  {1, 0.02f}};
 
 std::vector<GgxResult> evaluate(const std::vector<GgxCase>& cases) {

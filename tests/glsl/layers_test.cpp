@@ -34,7 +34,9 @@ std::vector<LayersResult> probeLayers(std::vector<LayersCase> cases) {
       film.thickness *= glm::vec2(0.7f, 1.3f);
       film.roughness = {0, 1};
     }
-    c.filmAlbedo = test::placeOf(needs.films, film) * filmAlbedoSize(film);
+    const uint32_t place = test::placeOf(needs.films, film);
+    c.filmAlbedo = 0;
+    for (uint32_t i = 0; i < place; ++i) c.filmAlbedo += filmAlbedoSize(needs.films[i]);
   }
   const test::BsdfScene scene(needs);
   return test::runProbe<LayersCase, LayersResult>(test_glsl_kernels::kernelSource("layers_probe"), cases,

@@ -56,7 +56,9 @@ INSTANTIATE_TEST_SUITE_P(RenderEnvelope, EnvelopeGates,
                          testing::Values(Gate{"scale-cavity", 0x1p-20, 1e-6}, Gate{"distance-cavity", 1e7, 1e-6},
                                          Gate{"coordinates", 1e-8, 1e-2, 4e-3}, Gate{"roughness-sun", 0.03, 1e-3},
                                          Gate{"roughness-sun", 0.01, 1e-3}, Gate{"ior", 10, 6e-3, 2e-3},
-                                         Gate{"solid-angle-sphere", 1e-10, 1e-4}, Gate{"aspect-floor", 1e7, 1e-4}),
+                                         Gate{"solid-angle-sphere", 1e-10, 1e-4}, Gate{"aspect-floor", 1e7, 1e-4},
+                                         Gate{"nearness", 1e5, 1e-4}, Gate{"lights", 1e5, 1e-2, 4e-3},
+                                         Gate{"texture", 16384, 1e-3, 4e-4}, Gate{"accumulation", 0x1p30, 1e-6}),
                          gateName);
 
 TEST(RenderEnvelopeSlow, EveryPublishedRangeHolds) {

@@ -124,9 +124,9 @@ TEST(Features, ATextureOfAnyKindNeedsTextures) {
 TEST(Features, OnlySmoothSurfacesNeedTheMirror) {
   Scene scene = plainScene();
   scene.materials[0].metallic = 1;
-  scene.materials[0].roughness = 0.0324f; // alpha 1.05e-3
+  scene.materials[0].roughness = 0.00725f; // alpha 5.26e-5
   EXPECT_EQ(names(scene), Names{"specular"});
-  scene.materials[0].roughness = 0.0316f; // alpha 0.9986e-3
+  scene.materials[0].roughness = 0.00706f; // alpha 4.98e-5
   EXPECT_EQ(names(scene), (Names{"specular", "mirror"}));
 }
 
@@ -137,7 +137,7 @@ TEST(Features, ARoughnessTextureNeedsTheMirrorWhereItsSmallestTexelDoes) {
     scene.materials[0].metallic = 1;
     addRoughnessTexture(scene, bits, static_cast<uint32_t>(0.2 * full));
     EXPECT_EQ(names(scene), (Names{"textures", "specular"})) << bits;
-    scene.materials[0].roughness = 0.1f; // times 0.2
+    scene.materials[0].roughness = 0.03f; // times 0.2
     EXPECT_EQ(names(scene), (Names{"textures", "specular", "mirror"})) << bits;
   }
 }

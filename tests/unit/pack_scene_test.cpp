@@ -472,6 +472,18 @@ TEST(PackScene, EmitterScaleIsThePowerOfTwoAboveTheBrightest) {
   EXPECT_EQ(packScene(scene).environmentPixels[1], glm::vec3(100, 500, 100));
 }
 
+// One sample of one lamp stands for the light of all: the film must have room for that, and for floors near a lamp.
+TEST(PackScene, EmitterScaleFollowsTheLightOfAllLampsTogether) {
+  Scene scene = sceneOf({square()});
+  scene.lights.assign(3, {.kind = LightKind::Directional, .intensity = glm::vec3(1)});
+  EXPECT_EQ(packScene(scene).emitterScale, 4);
+  scene.lights.resize(1);
+  scene.lights[0].kind = LightKind::Point;
+  const float one = packScene(scene).emitterScale;
+  scene.lights.resize(1024, scene.lights[0]);
+  EXPECT_EQ(packScene(scene).emitterScale, 1024 * one);
+}
+
 TEST(PackScene, InstancesWithoutTrianglesAreLeftOut) {
   Scene scene = sceneOf({square()}, 2);
   scene.meshes.resize(2);

@@ -104,6 +104,20 @@ TEST(WideBvh, BoxesAreHeldAtAnySizeAndPlace) {
   checkTree(boxes, widenBvh(buildBvh(boxes)));
 }
 
+// Half areas of up to 1e72, which no float holds.
+TEST(WideBvh, AreasMayBeLargerThanFloats) {
+  for (const float scale : {1e19f, 1e30f, 1e36f}) {
+    std::vector<Box> boxes = randomBoxes(200, 4, 1);
+    for (Box& box : boxes) {
+      box.lower *= scale;
+      box.upper *= scale;
+    }
+    const WideBvh bvh = widenBvh(buildBvh(boxes));
+    checkTree(boxes, bvh);
+    EXPECT_LT(bvh.nodes.size(), 60u) << "as good a tree as that of small boxes";
+  }
+}
+
 TEST(WideBvh, FramesAreAtMostTwiceAndABitAsWideAsTheirNode) {
   const std::vector<Box> boxes = randomBoxes(5000, 7, 0.1f);
   const WideBvh bvh = widenBvh(buildBvh(boxes));

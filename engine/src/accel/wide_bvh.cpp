@@ -39,7 +39,10 @@ struct Forest {
 class Widener {
 public:
   Widener(const Bvh& binary, const WideBvhOptions& options)
-      : binary_(binary), options_(options), forests_(binary.nodes.size()) {}
+      : binary_(binary), options_(options), forests_(binary.nodes.size()) {
+    const double area = halfArea(binary.bounds);
+    if (area > 0 && std::isfinite(area)) areaScale_ = std::ldexp(1, -std::ilogb(area));
+  }
 
   WideBvh widen() {
     findForests();
@@ -64,9 +67,12 @@ private:
                  : Side{{node.lower0, node.upper0}, node.child0, node.count0};
   }
 
+  // Of the order of 1 for the whole tree: squares of large coordinates do not fit a float.
+  [[nodiscard]] float scaledArea(const Box& box) const { return static_cast<float>(halfArea(box) * areaScale_); }
+
   [[nodiscard]] float costOf(const Side& side, uint32_t children) const {
     if (side.count == 0) return forests_[side.child].cost[children];
-    return static_cast<float>(halfArea(side.box)) * options_.itemCost * static_cast<float>(side.count);
+    return scaledArea(side.box) * options_.itemCost * static_cast<float>(side.count);
   }
 
   // Children come after their parents, so backwards is upwards.
@@ -86,10 +92,9 @@ private:
     forest.itemCount = leftItems + rightItems;
     std::array<float, kBvhWidth + 1> distributed{};
     for (uint32_t i = 2; i <= kBvhWidth; ++i) {
-      distributed[i] = kInfinity;
       for (uint32_t k = 1; k < i; ++k) {
         const float cost = costOf(left, std::min(k, kBvhWidth - 1)) + costOf(right, std::min(i - k, kBvhWidth - 1));
-        if (cost < distributed[i]) {
+        if (k == 1 || cost < distributed[i]) { // both get some, even where boxes are so large that costs are no numbers
           distributed[i] = cost;
           forest.left[i] = static_cast<uint8_t>(k);
         }
@@ -97,7 +102,7 @@ private:
     }
     Box box = left.box;
     box.grow(right.box);
-    const auto area = static_cast<float>(halfArea(box));
+    const float area = scaledArea(box);
     forest.cost[1] = distributed[kBvhWidth] + area * options_.nodeCost;
     if (forest.itemCount <= options_.maxLeafItems) {
       const float asLeaf = area * options_.itemCost * static_cast<float>(forest.itemCount);
@@ -242,7 +247,8 @@ private:
   const WideBvhOptions& options_;
   std::vector<Forest> forests_;
   WideBvh wide_;
-  double cost_ = 0; // sum of half area x cost over children
+  double areaScale_ = 1; // a power of two: it changes no rounding
+  double cost_ = 0;      // sum of half area x cost over children
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/jpeg_decode.hpp"
 #include "scene/stb_decode.hpp"
 #include "scene/webp_decode.hpp"
 
@@ -44,12 +45,27 @@ DecodeProblem tooManyPixels(uint64_t width, uint64_t height, uint64_t maxPixels)
 DecodeProblem readImageHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image) {
   const std::optional<ImageFormat> format = imageFormat(bytes);
   if (!format) return {.broken = "it is neither PNG nor JPEG nor WebP", .tooLarge = {}};
-  if (*format == ImageFormat::Webp) return readWebpHeader(bytes, maxPixels, image);
-  return readStbHeader(bytes, maxPixels, image);
+  switch (*format) {
+  case ImageFormat::Png:
+    return readPngHeader(bytes, maxPixels, image);
+  case ImageFormat::Jpeg:
+    return readJpegHeader(bytes, maxPixels, image);
+  case ImageFormat::Webp:
+    break;
+  }
+  return readWebpHeader(bytes, maxPixels, image);
 }
 
 DecodeProblem decodeImage(std::span<const std::byte> bytes, ImageData& image) {
-  return imageFormat(bytes) == ImageFormat::Webp ? decodeWebp(bytes, image) : decodeStb(bytes, image);
+  switch (imageFormat(bytes).value()) {
+  case ImageFormat::Png:
+    return decodePng(bytes, image);
+  case ImageFormat::Jpeg:
+    return decodeJpeg(bytes, image);
+  case ImageFormat::Webp:
+    break;
+  }
+  return decodeWebp(bytes, image);
 }
 
 } // namespace isophote

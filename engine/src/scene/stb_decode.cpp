@@ -26,7 +26,6 @@ void* limitedRealloc(void* block, size_t bytes) {
 #define STBI_REALLOC(block, bytes) limitedRealloc(block, bytes)
 #define STBI_FREE(block) std::free(block)
 #define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_HDR
 #define STBI_NO_STDIO
 #define STB_IMAGE_STATIC
@@ -42,7 +41,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "16-bit channels are kept as stb_image returns them");
 
 constexpr int kChannels = 4;
-constexpr size_t kScratchBytes = 16u << 20; ///< headers, palettes, Huffman tables and rounding up to whole blocks
+constexpr size_t kScratchBytes = 16u << 20; ///< headers, palettes and rounding up
 
 /// Feeds stb_image and notices when it asks for bytes beyond the end, which it would take for zeros.
 struct Source {
@@ -111,7 +110,7 @@ DecodeProblem readSize(std::span<const std::byte> bytes, uint64_t maxPixels, Siz
 DecodeProblem checkPngSize(std::span<const std::byte> bytes, uint64_t maxPixels) {
   constexpr size_t kWidthOffset = 16;
   constexpr size_t kHeightOffset = 20;
-  if (imageFormat(bytes) != ImageFormat::Png || bytes.size() < kHeightOffset + 4) return {};
+  if (bytes.size() < kHeightOffset + 4) return {};
   const auto bigEndian = [&](size_t offset) {
     uint64_t value = 0;
     for (size_t i = 0; i < 4; ++i) value = value << 8 | std::to_integer<uint64_t>(bytes[offset + i]);
@@ -142,7 +141,7 @@ bool isRadianceHdr(std::span<const std::byte> bytes) {
   return startsWith(bytes, "#?RADIANCE\n") || startsWith(bytes, "#?RGBE\n");
 }
 
-DecodeProblem readStbHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image) {
+DecodeProblem readPngHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image) {
   if (DecodeProblem problem = checkPngSize(bytes, maxPixels); problem.any()) return problem;
   Size size;
   if (DecodeProblem problem = readSize(bytes, maxPixels, size); problem.any()) return problem;
@@ -153,7 +152,7 @@ DecodeProblem readStbHeader(std::span<const std::byte> bytes, uint64_t maxPixels
   return {};
 }
 
-DecodeProblem decodeStb(std::span<const std::byte> bytes, ImageData& image) {
+DecodeProblem decodePng(std::span<const std::byte> bytes, ImageData& image) {
   const size_t pixelCount = size_t{image.width} * image.height;
   allocationLimit = allocationLimitFor(pixelCount);
   Source source{bytes};

@@ -1,4 +1,4 @@
-// PNG, JPEG and Radiance HDR from memory. The only place that knows stb_image.
+// PNG and Radiance HDR from memory. The only place that knows stb_image.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace isophote {
 
 [[nodiscard]] bool isRadianceHdr(std::span<const std::byte> bytes);
 
-/// Reads width, height and bits per channel of a PNG or JPEG into `image`: 16 bits where the PNG has 16, else 8.
-[[nodiscard]] DecodeProblem readStbHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image);
+/// Reads width, height and bits per channel of a PNG into `image`: 16 bits where it has 16, else 8.
+[[nodiscard]] DecodeProblem readPngHeader(std::span<const std::byte> bytes, uint64_t maxPixels, ImageData& image);
 
-/// Decodes the pixels, as RGBA, of a PNG or JPEG whose header was read.
-[[nodiscard]] DecodeProblem decodeStb(std::span<const std::byte> bytes, ImageData& image);
+/// Decodes the pixels, as RGBA, of a PNG whose header was read.
+[[nodiscard]] DecodeProblem decodePng(std::span<const std::byte> bytes, ImageData& image);
 
 struct HdrImage {
   uint32_t width = 0;

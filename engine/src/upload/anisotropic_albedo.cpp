@@ -114,7 +114,8 @@ std::vector<glm::vec2> computeTable(const AnisotropicSurface& surface, const Fac
 
 glm::dvec2 anisotropicWidth(double roughness, double strength) {
   const double alpha = roughness * roughness;
-  return glm::max(glm::dvec2(std::lerp(alpha, 1.0, strength * strength), alpha), glm::dvec2(double(gpu::kNarrowestAlpha)));
+  return glm::max(glm::dvec2(std::lerp(alpha, 1.0, strength * strength), alpha),
+                  glm::dvec2(double(gpu::kNarrowestAlpha)));
 }
 
 uint32_t anisotropicAlbedoSize(const AnisotropicSurface& surface) {
