@@ -88,6 +88,8 @@ Receipt readReceipt(const std::string& file, const Image& image) {
   try {
     receipt.samples = sampleRanges(samples);
     const Json request = Json::parse(settings);
+    if (request.value("adaptive", false))
+      throw UsageError("its samples were shared out by --adaptive, which cannot be repeated tile by tile");
     readRequest(request, receipt);
     receipt.environment = readEnvironment(request.at("environment"));
     checkSize(receipt, image);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numeric>
@@ -127,6 +128,29 @@ double channelMean(const Image& image, const std::string& name) {
   return std::accumulate(channel->values.begin(), channel->values.end(), 0.0) / double(channel->values.size());
 }
 
+void refuseAdaptive(const RenderOptions& options) {
+  if (!options.adaptive) return;
+  if (options.sampleRange) throw UsageError("--adaptive: such samples cannot be merged, leave out --sample-range");
+  if (!options.checkpoint.file.empty())
+    throw UsageError("--adaptive: such a render cannot resume, leave out --checkpoint");
+  if (options.plan) throw UsageError("--adaptive: --plan does not know what it saves");
+}
+
+/// Samples a pixel of the pilot that says where the error is: a sixteenth of all, in whole rounds.
+uint32_t pilotSamples(const RenderOptions& options) {
+  constexpr uint32_t kRound = 8, kMost = 64, kUsual = 16;
+  return options.samplesPerPixel ? std::clamp(*options.samplesPerPixel / 16 / kRound * kRound, kRound, kMost) : kUsual;
+}
+
+/// The rule for pixels of the first class that spends as many samples as asked for, the pilot's among them.
+StopRule sharedOut(StopRule rule, const AdaptivePlan& plan) {
+  constexpr uint32_t kRound = 8;
+  const double left = std::max(double(rule.samples.last) - plan.pilotSamples, 0.0);
+  const auto rounds = static_cast<uint32_t>(std::lround(left / plan.allocation.samplesPerPixel / kRound));
+  rule.samples.last = kRound * std::max(rounds, 1u);
+  return rule;
+}
+
 /// The mean of three channels: R, G, B after `prefix`.
 glm::dvec3 colorMean(const Image& image, const std::string& prefix) {
   return {channelMean(image, prefix + "R"), channelMean(image, prefix + "G"), channelMean(image, prefix + "B")};
@@ -202,6 +226,7 @@ int runRender(const RenderOptions& options) {
   catchInterrupts();
   checkOutputs(options);
   if (options.unbiased) refuseBias(options.settings);
+  refuseAdaptive(options);
   if (options.plan) return runPlan(options);
   Stopwatch watch;
   RenderReport report{.scene = options.scene,
@@ -240,7 +265,17 @@ int runRender(const RenderOptions& options) {
   {
     ProgressLine progress(options.quiet);
     CheckpointKeeper checkpoints(options.checkpoint, sampleIdentity(report, report.rule.samples.first));
-    report.result = renderUntil(tracer, report.view.camera, film, report.rule, progress, &checkpoints);
+    if (options.adaptive) {
+      report.adaptive = planSamples(tracer, report.view.camera, film, device, options.settings.estimator.seed,
+                                    pilotSamples(options), [] { return !interrupted(); });
+      if (!report.adaptive) {
+        printError("interrupted before the first sample of the image; nothing is written");
+        return kInterrupted;
+      }
+      report.rule = sharedOut(report.rule, *report.adaptive);
+    }
+    report.result = renderUntil(tracer, report.view.camera, film, report.rule, progress, &checkpoints,
+                                report.adaptive ? &*report.adaptive : nullptr);
   }
   report.statistics = tracer.statistics();
   report.features = tracer.features();

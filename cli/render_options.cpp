@@ -90,6 +90,11 @@ void addStopFlags(CLI::App& command, RenderOptions& options) {
       [&options](const std::string& text) { options.seconds = parseNumber(text, 1e-3, 1e9); },
       "Stop after this much rendering")
       ->group(kGroup);
+  command
+      .add_flag(
+          "--adaptive", options.adaptive,
+          "More samples where a pilot found more error; pays where parts of the image are much noisier than others")
+      ->group(kGroup);
   CLI::Option* plan = command.add_flag(
       "--plan", options.plan, "Render nothing: say from a pilot of seconds what time, samples and memory it will take");
   plan->group(kGroup);

@@ -30,6 +30,7 @@ struct RenderOptions {
   std::optional<double> targetError;
   double confidence = 0.95;
   std::optional<double> seconds;
+  bool adaptive = false; ///< more samples where the error is
   CheckpointOptions checkpoint;
   Settings settings;
   float exposureEv = 0;

@@ -47,6 +47,18 @@ Json targetJson(const StopRule& rule, const RenderResult& result) {
           {"looks", looks}};
 }
 
+/// How the samples were shared out.
+Json adaptiveJson(const std::optional<AdaptivePlan>& plan) {
+  if (!plan) return nullptr;
+  Json classes = Json::array();
+  for (uint32_t c = 0; c < SampleAllocation::kClasses; ++c)
+    classes.push_back({{"weight", SampleAllocation::weight(c)}, {"pixels", plan->allocation.pixels[c].size()}});
+  return {{"pilot_spp", plan->pilotSamples},
+          {"pilot_seconds", plan->pilotSeconds},
+          {"classes", classes},
+          {"expected_gain", plan->allocation.expectedGain}};
+}
+
 Json kernelsJson(const RenderStatistics& statistics) {
   Json list = Json::array();
   for (const KernelStatistics& kernel : statistics.kernels) {
@@ -135,6 +147,7 @@ Json requestJson(const RenderReport& report) {
   }
   settings["environment"] = report.environment;
   if (report.variant) settings["variant"] = *report.variant;
+  if (report.adaptive) settings["adaptive"] = true;
   return settings;
 }
 
@@ -193,6 +206,7 @@ Json statsJson(const RenderReport& report) {
             {"max_depth", scene.bvhMaxDepth}}},
           {"error", errorJson(report.result.error)},
           {"target", targetJson(report.rule, report.result)},
+          {"adaptive", adaptiveJson(report.adaptive)},
           {"bias", ledgerJson(report)},
           {"status", statusJson(render.status)},
           {"figure_of_merit", figureOfMerit(report.result)},

@@ -38,6 +38,7 @@ struct RenderReport {
   SceneStatistics sceneStatistics;
   RenderStatistics statistics;
   StopRule rule;
+  std::optional<AdaptivePlan> adaptive;
   RenderResult result;
   SampleRange samples;          ///< that were started for at least one pixel
   uint32_t samplesPerPixel = 0; ///< that every pixel has at least

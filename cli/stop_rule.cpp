@@ -14,8 +14,9 @@ using Clock = std::chrono::steady_clock;
 class StoppableRender {
 public:
   StoppableRender(PathTracer& tracer, const Camera& camera, Film& film, const StopRule& rule, ProgressLine& progress,
-                  CheckpointKeeper* checkpoints)
-      : tracer_(tracer), camera_(camera), film_(film), rule_(rule), progress_(progress), checkpoints_(checkpoints) {}
+                  CheckpointKeeper* checkpoints, const AdaptivePlan* adaptive)
+      : tracer_(tracer), camera_(camera), film_(film), rule_(rule), progress_(progress), checkpoints_(checkpoints),
+        adaptive_(adaptive) {}
 
   RenderResult run() {
     left_ = rule_.samples;
@@ -24,6 +25,7 @@ public:
       left_ = start.left;
       secondsBefore_ = start.seconds;
     }
+    if (adaptive_ != nullptr) secondsBefore_ += adaptive_->pilotSeconds;
     const Outcome outcome = renderPasses();
     if (checkpoints_ != nullptr) checkpoints_->save(film_, left_, elapsed());
     return {.outcome = outcome, .seconds = elapsed(), .error = error_, .looks = std::move(looks_)};
@@ -54,19 +56,24 @@ private:
   }
 
   [[nodiscard]] uint32_t passEnd(uint32_t next) const {
-    if (!rule_.target) return rule_.samples.last;
+    if (!rule_.target && adaptive_ == nullptr) return rule_.samples.last;
     const uint64_t end = rule_.samples.first + nextLook(next - rule_.samples.first);
     return static_cast<uint32_t>(std::min<uint64_t>(end, rule_.samples.last));
   }
 
   void look(uint32_t end) {
     if (!rule_.target) return;
-    Look look{.samples = end - rule_.samples.first, .seconds = elapsed(), .error = error_};
+    Look look{.samples = samplesPerPixel(end - rule_.samples.first), .seconds = elapsed(), .error = error_};
     if (error_.known) {
-      look.samplesToTarget = forecastSamples({double(look.samples), error_}, rule_.errorTarget());
+      look.samplesToTarget = forecastSamples({look.samples, error_}, rule_.errorTarget());
       look.secondsToTarget = secondsAt(look.samplesToTarget, look.samples);
     }
     looks_.push_back(look);
+  }
+
+  /// In the mean, where a pixel of the first class has `samples`.
+  [[nodiscard]] double samplesPerPixel(double samples) const {
+    return adaptive_ != nullptr ? samples * adaptive_->allocation.samplesPerPixel : samples;
   }
 
   /// Of rendering, when `samples` a pixel are done, of which `done` are now.
@@ -93,14 +100,16 @@ private:
 
   bool renderUntilCheckpoint(SampleRange pass) {
     const auto onProgress = [&](const Progress& progress) {
-      if (!compileSeconds_) compileSeconds_ = tracer_.statistics().compileSeconds; // done by the first pass
+      compileSeconds_ = tracer_.statistics().compileSeconds - compiledBefore_; // at the beginning of passes
       if (interrupted() || timeUp() || (checkpoints_ != nullptr && checkpoints_->due())) return false;
       if (progress_.due()) showProgress(pass, progress);
       return true;
     };
     const double begun = elapsed();
-    const bool finished = tracer_.render(camera_, film_, pass, onProgress);
-    if (finished && pass.begun == 0) pace_.add(pass.last - pass.first, elapsed() - begun);
+    const bool finished = adaptive_ != nullptr
+                              ? renderAllocated(tracer_, camera_, film_, pass, adaptive_->allocation, onProgress)
+                              : tracer_.render(camera_, film_, pass, onProgress);
+    if (finished && pass.begun == 0) pace_.add(samplesPerPixel(pass.last - pass.first), elapsed() - begun);
     const RenderStatistics statistics = tracer_.statistics();
     raysBefore_ = static_cast<double>(statistics.primaryRays + statistics.bounceRays + statistics.shadowRays);
     return finished;
@@ -116,11 +125,12 @@ private:
     state.fraction = done / (rule_.samples.last - rule_.samples.first);
     if (rule_.seconds) state.fraction = std::max(state.fraction, elapsed() / *rule_.seconds);
     if (rule_.target && error_.known && done > 0) {
-      const Interval samples = forecastSamples({done, error_}, rule_.errorTarget());
-      const double share = std::min(done / samples.value, 0.99);
+      const double held = samplesPerPixel(done);
+      const Interval samples = forecastSamples({held, error_}, rule_.errorTarget());
+      const double share = std::min(held / samples.value, 0.99);
       if (share > state.fraction) {
         state.fraction = share;
-        if (pace_.known()) state.ends = secondsAt(samples, done);
+        if (pace_.known()) state.ends = secondsAt(samples, held);
       }
     }
     progress_.show(state);
@@ -132,7 +142,7 @@ private:
     return std::chrono::duration<double>(Clock::now() - start).count();
   }
   /// Of rendering: without the compilation of kernels, which the first pass begins with.
-  [[nodiscard]] double elapsed() const { return secondsBefore_ + secondsSince(start_) - compileSeconds_.value_or(0); }
+  [[nodiscard]] double elapsed() const { return secondsBefore_ + secondsSince(start_) - compileSeconds_; }
 
   PathTracer& tracer_;
   const Camera& camera_;
@@ -140,6 +150,7 @@ private:
   const StopRule& rule_;
   ProgressLine& progress_;
   CheckpointKeeper* checkpoints_;
+  const AdaptivePlan* adaptive_;
   SampleRange left_;         ///< of all that was asked for
   double secondsBefore_ = 0; ///< of a render that this one goes on with
   Clock::time_point start_ = Clock::now();
@@ -148,14 +159,15 @@ private:
   std::vector<Look> looks_;
   Pace pace_;
   double raysBefore_ = 0; ///< of earlier passes
-  std::optional<double> compileSeconds_;
+  double compiledBefore_ = tracer_.statistics().compileSeconds;
+  double compileSeconds_ = 0;
 };
 
 } // namespace
 
 RenderResult renderUntil(PathTracer& tracer, const Camera& camera, Film& film, const StopRule& rule,
-                         ProgressLine& progress, CheckpointKeeper* checkpoints) {
-  return StoppableRender(tracer, camera, film, rule, progress, checkpoints).run();
+                         ProgressLine& progress, CheckpointKeeper* checkpoints, const AdaptivePlan* adaptive) {
+  return StoppableRender(tracer, camera, film, rule, progress, checkpoints, adaptive).run();
 }
 
 } // namespace isophote::cli

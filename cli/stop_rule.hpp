@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "adaptive.hpp"
 #include "checkpoint_keeper.hpp"
 #include "isophote/error_target.hpp"
 #include "isophote/path_tracer.hpp"
@@ -22,8 +23,8 @@ struct StopRule {
 
 /// What was known of the error at one time.
 struct Look {
-  uint32_t samples = 0; ///< a pixel
-  double seconds = 0;   ///< of rendering
+  double samples = 0; ///< a pixel, in the mean
+  double seconds = 0; ///< of rendering
   ErrorEstimate error;
   Interval samplesToTarget; ///< forecast then, with 95% intervals
   Interval secondsToTarget; ///< from the beginning
@@ -49,7 +50,10 @@ struct RenderResult {
 /// holds the same number of samples. A render that goes on from a checkpoint stops where it would have without the
 /// break.
 /// @param checkpoints  none are kept where null
+/// @param adaptive     shares the samples out, of which the rule's are those of a pixel of the first class, less the
+/// pilot
 [[nodiscard]] RenderResult renderUntil(PathTracer& tracer, const Camera& camera, Film& film, const StopRule& rule,
-                                       ProgressLine& progress, CheckpointKeeper* checkpoints = nullptr);
+                                       ProgressLine& progress, CheckpointKeeper* checkpoints = nullptr,
+                                       const AdaptivePlan* adaptive = nullptr);
 
 } // namespace isophote::cli

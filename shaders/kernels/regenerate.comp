@@ -7,8 +7,12 @@
 #include "kernels/wavefront.glsl"
 #include "sampling/sampler.glsl"
 
-// The crop pixel of a padded work index: tiles row by row, pixels within a tile row by row.
+// The crop pixel of a padded work index: tiles row by row, pixels within a tile row by row; or that of a list.
 uvec2 tilePixel(const RenderRef render, const uint padded) {
+  if (kPixelList != 0u) {
+    const uint pixel = UintRef(render.view.pixels).items[padded];
+    return uvec2(pixel % render.view.cropSize.x, pixel / render.view.cropSize.x);
+  }
   const uvec2 tile = render.view.tileSize;
   const uint tileArea = tile.x * tile.y;
   const uint tileIndex = padded / tileArea;

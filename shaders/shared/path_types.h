@@ -149,6 +149,7 @@ struct RenderView {
   Address clamped;     // RemovedSum[crop pixels] or 0
   Address beyond;      // RemovedSum[crop pixels] or 0: what lies beyond maxDepth
   Address beyondPaths; // BeyondState[capacity]; with kDepthLedger only
+  Address pixels;      // uint[paddedPixelCount], crop pixels row by row; with kPixelList only
   Uint64 workEnd;
   uvec2 imageSize;
   uvec2 cropOrigin;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,10 @@ public:
 
   /// Renders that begin from now on use this seed; the kernels stay.
   void setSeed(uint64_t seed);
+
+  /// Renders that begin from now on sample these pixels only: indices into the film's crop, row by row, each once.
+  /// None: all.
+  void setPixels(std::span<const uint32_t> pixels);
 
   /// Adds samples `range` of every pixel of the film. `onProgress` is called after each submit; when it returns false
   /// no new sample starts, those in flight finish, and render returns false with a valid film.

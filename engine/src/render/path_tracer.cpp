@@ -52,7 +52,8 @@ struct PathTracer::Impl {
   gpu::TextureArray placeholderTextures;
   std::optional<WavefrontKernels> kernels;
   FeatureSet kernelFeatures;
-  bool depthLedger = false; ///< of the kernels and the pool
+  KernelNeeds kernelNeeds;
+  gpu::Buffer pixelList; ///< crop pixels to sample; null: all
   std::optional<PathPool> pool;
   gpu::CommandStream commands;
 
@@ -115,17 +116,19 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
     if (camera.kind == CameraKind::Panorama) features.add(Feature::kHasPanorama);
     if (camera.hasLens()) features.add(Feature::kHasThinLens);
   }
-  const bool ledger = target.options().depthLedger && execution.depthLedger && estimator.maxDepth != kUnlimitedDepth;
-  if (kernels && features == kernelFeatures && ledger == depthLedger) return;
-  if (ledger != depthLedger) pool.reset(); // it holds other state
-  depthLedger = ledger;
+  const KernelNeeds needs = {.depthLedger = target.options().depthLedger && execution.depthLedger &&
+                                            estimator.maxDepth != kUnlimitedDepth,
+                             .pixelList = pixelList.bytes() != 0};
+  if (kernels && features == kernelFeatures && needs == kernelNeeds) return;
+  if (needs.depthLedger != kernelNeeds.depthLedger) pool.reset(); // it holds other state
+  kernelNeeds = needs;
   const auto start = Clock::now();
   if (features.has(Feature::kHasTextures) && scene.impl().textures.size() == 0) {
     const ImageData white{.name = "placeholder", .width = 1, .height = 1, .pixels = std::vector(4, std::byte{255})};
     const gpu::TextureUpload upload{.image = &white};
     placeholderTextures = gpu::TextureArray(device, {&upload, 1});
   }
-  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout(), depthLedger);
+  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout(), needs);
   kernelFeatures = features;
   totals.compileSeconds += secondsSince(start);
   if (!pool) {
@@ -139,7 +142,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
                                .scatteringMedia = kernels->shadeMedium.has_value(),
                                .straight = features.has(Feature::kHasTransmission) &&
                                            estimator.shadowTransmission == ShadowTransmission::Straight,
-                               .beyond = depthLedger});
+                               .beyond = needs.depthLedger});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
     activeLimit = paths;
@@ -148,8 +151,13 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
 
 void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) {
   gpu::RenderView view = renderView(scene.impl(), film->impl(), camera, range, estimator, pool->filterTable.address());
-  workEnd = view.workEnd;
   view.beyondPaths = pool->beyond.address();
+  if (kernelNeeds.pixelList) {
+    view.pixels = pixelList.address();
+    view.paddedPixelCount = static_cast<uint32_t>(pixelList.bytes() / sizeof(uint32_t));
+    view.workEnd = uint64_t{view.paddedPixelCount} * (range.last - range.first);
+  }
+  workEnd = view.workEnd;
   if (range.begun > workEnd) throw UsageError("more of the first sample is done than there is");
   gpu::writeBuffer(device, pool->render, 0, std::as_bytes(std::span(&view, 1)));
 }
@@ -277,6 +285,13 @@ PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
 PathTracer::~PathTracer() = default;
 
 void PathTracer::setSeed(uint64_t seed) { impl_->estimator.seed = seed; }
+
+void PathTracer::setPixels(std::span<const uint32_t> pixels) {
+  if (impl_->film != nullptr) throw Error("a render is under way: finish or cancel it first");
+  impl_->pixelList = {};
+  if (!pixels.empty())
+    impl_->pixelList = gpu::uploadBuffer(impl_->device, std::vector(pixels.begin(), pixels.end()), "render.pixels");
+}
 
 void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   if (impl_->film != nullptr) throw Error("a render is under way: finish or cancel it first");

@@ -25,7 +25,7 @@ bool shinesBeyondSurfaces(const FeatureSet& features) {
 } // namespace
 
 std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const EstimatorSettings& settings,
-                                               uint32_t workgroupSize, bool depthLedger) {
+                                               uint32_t workgroupSize, const KernelNeeds& needs) {
   std::vector<gpu::SpecConstant> constants = {{0, workgroupSize}};
   for (const FeatureDescription& description : allFeatures()) {
     constants.push_back({static_cast<uint32_t>(description.feature), features.has(description.feature) ? 1u : 0u});
@@ -43,7 +43,8 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   constants.push_back({setting_id::kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({setting_id::kShadowTransmission, static_cast<uint32_t>(settings.shadowTransmission)});
   constants.push_back({setting_id::kRussianRoulette, settings.russianRoulette ? 1u : 0u});
-  constants.push_back({setting_id::kDepthLedger, depthLedger ? 1u : 0u});
+  constants.push_back({setting_id::kDepthLedger, needs.depthLedger ? 1u : 0u});
+  constants.push_back({setting_id::kPixelList, needs.pixelList ? 1u : 0u});
   constants.push_back({setting_id::kClamp, settings.clamp < kNoClamp ? 1u : 0u});
   return constants;
 }
@@ -61,8 +62,8 @@ std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
 
 WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
                                       const EstimatorSettings& settings, uint32_t workgroupSize,
-                                      VkDescriptorSetLayout textureLayout, bool depthLedger) {
-  const auto constants = kernelConstants(features, settings, workgroupSize, depthLedger);
+                                      VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
+  const auto constants = kernelConstants(features, settings, workgroupSize, needs);
   const auto make = [&](const char* name) {
     return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
   };
@@ -78,7 +79,7 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
   if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
   if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
   if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
-  if (samplesLights(features, settings, depthLedger)) kernels.intersectShadow = make("intersect_shadow");
+  if (samplesLights(features, settings, needs.depthLedger)) kernels.intersectShadow = make("intersect_shadow");
   return kernels;
 }
 

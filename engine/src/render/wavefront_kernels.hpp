@@ -10,6 +10,13 @@
 
 namespace isophote {
 
+/// What a render asks of its kernels beside features and settings.
+struct KernelNeeds {
+  bool depthLedger = false; ///< some paths are followed beyond the depth limit
+  bool pixelList = false;   ///< some pixels are sampled, not all
+  bool operator==(const KernelNeeds&) const = default;
+};
+
 struct WavefrontKernels {
   gpu::Kernel prepare;
   gpu::Kernel regenerate;
@@ -26,14 +33,13 @@ struct WavefrontKernels {
 };
 
 /// What specializes a kernel: workgroup size, features, settings.
-/// @param depthLedger  some paths are followed beyond the depth limit
 [[nodiscard]] std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features,
                                                              const EstimatorSettings& settings, uint32_t workgroupSize,
-                                                             bool depthLedger = false);
+                                                             const KernelNeeds& needs = {});
 
 /// @param textureLayout  of the scene's texture array, null where it has none
 [[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
                                                     const EstimatorSettings& settings, uint32_t workgroupSize,
-                                                    VkDescriptorSetLayout textureLayout, bool depthLedger = false);
+                                                    VkDescriptorSetLayout textureLayout, const KernelNeeds& needs = {});
 
 } // namespace isophote
