@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <ImfChannelList.h>
+#include <ImfCompression.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -107,6 +108,24 @@ void checkPlanes(const Image& image) {
   for (const IntegerChannel& channel : image.integers) check(channel);
 }
 
+/// Rows that are compressed together, and for which a buffer is made even where there are fewer.
+uint64_t rowsPerChunk(Imf::Compression compression) {
+  switch (compression) {
+  case Imf::ZIP_COMPRESSION:
+  case Imf::PXR24_COMPRESSION:
+    return 16;
+  case Imf::PIZ_COMPRESSION:
+  case Imf::B44_COMPRESSION:
+  case Imf::B44A_COMPRESSION:
+  case Imf::DWAA_COMPRESSION:
+    return 32;
+  case Imf::DWAB_COMPRESSION:
+    return 256;
+  default:
+    return 1;
+  }
+}
+
 /// @throws SceneError, UnsupportedError, LimitError before any pixel memory exists
 void checkHeader(const std::string& file, uint64_t fileBytes, const Imf::Header& header) {
   const Imath::Box2i window = header.dataWindow();
@@ -127,7 +146,8 @@ void checkHeader(const std::string& file, uint64_t fileBytes, const Imf::Header&
                      std::to_string(channels) + " channels exceed the limit of " + std::to_string(kMaxPixels) +
                      " pixels and " + std::to_string(kMaxValues) + " values");
   }
-  if (pixels * channels / kMaxCompression > fileBytes) {
+  const uint64_t rows = std::max(static_cast<uint64_t>(height), rowsPerChunk(header.compression()));
+  if (static_cast<uint64_t>(width) * rows * channels / kMaxCompression > fileBytes) {
     throw SceneError(file, "",
                      "an OpenEXR image whose " + std::to_string(fileBytes) + " bytes can hold the " +
                          std::to_string(width) + " x " + std::to_string(height) + " pixels of its header");

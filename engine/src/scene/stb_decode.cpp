@@ -43,16 +43,24 @@ static_assert(std::endian::native == std::endian::little, "16-bit channels are k
 constexpr int kChannels = 4;
 constexpr size_t kScratchBytes = 16u << 20; ///< headers, palettes and rounding up
 
-/// Feeds stb_image and notices when it asks for bytes beyond the end, which it would take for zeros.
+/// Feeds stb_image and notices when it asks for bytes beyond the end, which it would take for zeros. In HDR's rows
+/// zeros are runs without length, of which it would read for ever: there the bytes beyond the end are 255, a run too
+/// long.
 struct Source {
   std::span<const std::byte> bytes;
+  bool endsInRuns = false;
   size_t position = 0;
   bool readPastEnd = false;
 
   static int read(void* user, char* data, int size) {
     Source& source = *static_cast<Source*>(user);
     const size_t count = std::min(static_cast<size_t>(size), source.bytes.size() - source.position);
-    if (count == 0 && size > 0) source.readPastEnd = true;
+    if (count == 0 && size > 0) {
+      source.readPastEnd = true;
+      if (!source.endsInRuns) return 0;
+      std::memset(data, 0xff, static_cast<size_t>(size));
+      return size;
+    }
     std::memcpy(data, source.bytes.data() + source.position, count);
     source.position += count;
     return static_cast<int>(count);
@@ -100,6 +108,7 @@ DecodeProblem readSize(std::span<const std::byte> bytes, uint64_t maxPixels, Siz
       size.height <= 0) {
     return {.broken = fmt::format("its header cannot be read ({})", stbi_failure_reason()), .tooLarge = {}};
   }
+  if (source.readPastEnd) return {.broken = "it is truncated", .tooLarge = {}};
   const auto width = static_cast<uint64_t>(size.width);
   const auto height = static_cast<uint64_t>(size.height);
   if (width * height > maxPixels) return tooManyPixels(width, height, maxPixels);
@@ -177,7 +186,7 @@ DecodeProblem decodeHdr(std::span<const std::byte> bytes, uint64_t maxPixels, Hd
   image.height = static_cast<uint32_t>(size.height);
   const size_t count = size_t{image.width} * image.height;
   allocationLimit = allocationLimitFor(count);
-  Source source{bytes};
+  Source source{bytes, true};
   int channels = 0;
   const Pixels<float> pixels(stbi_loadf_from_callbacks(&kCallbacks, &source, &size.width, &size.height, &channels, 3));
   if (DecodeProblem problem = pixelProblem(source, pixels.get(), size); problem.any()) return problem;

@@ -18,9 +18,9 @@ constexpr double kSmallestSine = 1e-4;
 constexpr double kPi = 3.14159265358979323846;
 
 // Point lights count with their irradiance at the scene's radius over this. At a thousandth of that distance, where
-// they are a million times as bright, a pixel still holds 1024 samples; at a thousand times of it, 2^-20 as bright, a
-// sample's rounding is 1e-5 of it.
-constexpr double kNearLamp = 256;
+// they are a million times as bright, a pixel still holds 256 samples; at a thousand times of it, 2^-20 as bright, a
+// sample's rounding is 2.5e-6 of it.
+constexpr double kNearLamp = 128;
 
 double largestComponent(const glm::dvec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 
