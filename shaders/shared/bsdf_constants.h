@@ -64,7 +64,7 @@ ISOPHOTE_CONST uint kLayerTableSize = kLayerThroughMean + 2u * kLayerRoughnessCo
 
 // Table of a sheen under a clearcoat, see bsdf/coated_sheen.glsl: items [r][q][b] of kLayerMuCount columns [c] and a
 // mean. r is the sheen's row, q stands for the coat's roughness q / (kCoatedSheenCoatCount - 1), b and c as above.
-ISOPHOTE_CONST uint kCoatedSheenCoatCount = 8u;
+ISOPHOTE_CONST uint kCoatedSheenCoatCount = 16u;
 ISOPHOTE_CONST uint kCoatedSheenStride = kLayerMuCount + 1u;
 ISOPHOTE_CONST uint kCoatedSheenSize =
     kLayerRoughnessCount * kCoatedSheenCoatCount * kLayerBaseCount * kCoatedSheenStride;

@@ -9,6 +9,7 @@
 
 #include "glsl/bsdf_case.h"
 #include "glsl/bsdf_scene.hpp"
+#include "glsl/directions.hpp"
 #include "oracle/bsdf_metallic_roughness.hpp"
 #include "render/setting_ids.hpp"
 #include "shared/bsdf_constants.h"
@@ -60,14 +61,6 @@ inline gpu::BsdfCase leaf(float roughness, float share, glm::vec3 color = {0.2f,
   c.diffuseTransmissionColor = color;
   return c;
 }
-
-inline glm::vec3 directionOf(double cosine, double phi) {
-  const double sine = std::sqrt(1 - cosine * cosine);
-  return {float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(cosine)};
-}
-
-// A multiple of 2^-24 in [0, 1), as kernels draw them.
-inline float uniform(std::mt19937& generator) { return float(generator() >> 8) * std::ldexp(1.0f, -24); }
 
 inline void drawUniforms(gpu::BsdfCase& c, std::mt19937& generator) {
   c.uLobe = uniform(generator);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "glsl/bsdf_material_cases.hpp"
+#include "glsl/furnace.hpp"
 #include "isophote/features.hpp"
 #include "oracle/bsdf_ggx.hpp"
 #include "render/setting_ids.hpp"
@@ -72,27 +73,10 @@ std::vector<BsdfCase> randomCases(size_t count, uint32_t seed) {
 // (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences", R3). Against 4e5 points the error is below
 // 1e-3.
 std::vector<glm::dvec3> sampledAlbedos(const std::vector<BsdfCase>& materials,
-                                       std::span<const gpu::SpecConstant> constants = {}) {
-  const int count = 130000;
-  const size_t atOnce = 24; // one dispatch on a software device takes at most 4.2 million cases
-  const glm::dvec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-  std::vector<glm::dvec3> albedos(materials.size(), glm::dvec3(0));
-  for (size_t first = 0; first < materials.size(); first += atOnce) {
-    std::vector<BsdfCase> cases;
-    for (size_t m = first; m < std::min(first + atOnce, materials.size()); ++m) {
-      for (int i = 1; i <= count; ++i) {
-        const glm::vec3 u(glm::fract(step * double(i)) * (1 - 1e-7));
-        cases.push_back(materials[m]);
-        cases.back().uLobe = u.x;
-        cases.back().u = {u.y, u.z};
-      }
-    }
-    const auto results = test::probeBsdf(cases, constants);
-    for (size_t i = 0; i < results.size(); ++i) {
-      if ((results[i].flags & gpu::kBsdfValid) == 0) continue;
-      albedos[first + i / count] += glm::dvec3(results[i].weight) / double(count);
-    }
-  }
+                                       std::span<const gpu::SpecConstant> constants = {}, int count = 130000) {
+  std::vector<glm::dvec3> albedos;
+  for (const auto& weights : test::sampledWeights(materials, constants, count))
+    albedos.emplace_back(weights[0].mean(), weights[1].mean(), weights[2].mean());
   return albedos;
 }
 
@@ -183,12 +167,16 @@ TEST(Bsdf, NeverReflectsMoreThanArrives) {
       }
     }
   }
+  // The lattice is off by up to 2e-3 where few samples weigh much; what exceeds 1 with it is measured anew.
+  std::vector<BsdfCase> again;
   const auto albedos = sampledAlbedos(materials);
   for (size_t i = 0; i < materials.size(); ++i) {
-    // The albedo table's error; where the coat reflects nearly everything the lattice itself is off by 2e-3.
-    EXPECT_LT(albedos[i].y, 1 + (materials[i].ior == 0 ? 4e-3 : 3e-3))
-        << test::describe(materials[i]) << " ior " << materials[i].ior;
+    if (albedos[i].y > 1 + 1e-3) again.push_back(materials[i]);
   }
+  ASSERT_LT(again.size(), 8u);
+  const auto better = sampledAlbedos(again, {}, 3'000'000);
+  for (size_t i = 0; i < again.size(); ++i)
+    EXPECT_LT(better[i].y, 1 + 1e-3) << test::describe(again[i]) << " ior " << again[i].ior;
 }
 
 // What a white dielectric's coat reflects, its base loses: together 1, within the albedo table's accuracy.

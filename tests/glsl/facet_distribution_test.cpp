@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "glsl/directions.hpp"
 #include "glsl/ggx_case.h"
 #include "oracle/bsdf_facets.hpp"
 #include "render/setting_ids.hpp"
@@ -34,19 +35,6 @@ GgxCase blank(const glm::vec2& alpha) {
   return {.wo = {0, 0, 1}, .wi = {0, 0, 1}, .wm = {0, 0, 1}, .alpha = alpha, .u = {0.5f, 0.5f}, .uSide = 0.5f};
 }
 
-glm::vec3 direction(double cosine, double phi) {
-  const double sine = std::sqrt(1 - cosine * cosine);
-  return {float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(cosine)};
-}
-
-// A normal whose slope is `slope` in units of alpha.
-glm::vec3 tilted(const glm::vec2& alpha, double slope, double phi) {
-  const glm::dvec3 normal(double(alpha.x) * slope * std::cos(phi), double(alpha.y) * slope * std::sin(phi), 1);
-  return glm::vec3(glm::normalize(normal));
-}
-
-float uniform(std::mt19937& generator) { return float(generator() >> 8) * std::ldexp(1.0f, -24); }
-
 std::string describe(Ndf ndf, const GgxCase& c) {
   return "ndf " + std::to_string(uint32_t(ndf)) + " alpha " + std::to_string(c.alpha.x) + ", " +
          std::to_string(c.alpha.y) + " cosines " + std::to_string(c.wo.z) + ", " + std::to_string(c.wi.z);
@@ -61,7 +49,7 @@ TEST(FacetDistribution, DensityMatchesTheOracle) {
     for (const glm::vec2& alpha : kAlphas) {
       for (int i = 0; i < 200; ++i) {
         cases.push_back(blank(alpha));
-        cases.back().wm = tilted(alpha, std::pow(10.0, -3 + 3.5 * i / 199), 0.7 * i);
+        cases.back().wm = test::tiltedNormal(alpha, std::pow(10.0, -3 + 3.5 * i / 199), 0.7 * i);
       }
     }
     const auto results = evaluate(cases, ndf);
@@ -110,7 +98,7 @@ TEST(FacetDistribution, MaskingConservesProjectedArea) {
     for (const glm::vec2& alpha : kAlphas) {
       for (const double cosine : {1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.4, 0.6, 0.7, 0.72, 0.9, 0.99, 1.0}) {
         cases.push_back(blank(alpha));
-        cases.back().wo = direction(cosine, 6 * double(uniform(generator)));
+        cases.back().wo = test::directionOf(cosine, 6 * double(test::uniform(generator)));
       }
     }
     const auto results = evaluate(cases, ndf);
@@ -133,9 +121,9 @@ TEST(FacetDistribution, VisibilityAndDensitiesMatchTheOracle) {
       for (const double cosine : {1e-4, 0.02, 0.3, 0.8}) {
         for (const double other : {1e-3, 0.1, 0.6, 1.0}) {
           GgxCase c = blank(alpha);
-          c.wo = direction(cosine, 6 * double(uniform(generator)));
-          c.wi = direction(other, 6 * double(uniform(generator)));
-          c.wm = tilted(alpha, 2 * double(uniform(generator)), 6 * double(uniform(generator)));
+          c.wo = test::directionOf(cosine, 6 * double(test::uniform(generator)));
+          c.wi = test::directionOf(other, 6 * double(test::uniform(generator)));
+          c.wm = test::tiltedNormal(alpha, 2 * double(test::uniform(generator)), 6 * double(test::uniform(generator)));
           cases.push_back(c);
         }
       }
@@ -175,12 +163,12 @@ TEST(FacetDistribution, SampledNormalsFollowTheirDensity) {
   for (const Ndf ndf : ndfs) {
     for (const auto& [width, cosine] : cases) {
       GgxCase c = blank(width);
-      c.wo = direction(cosine, 0.8);
+      c.wo = test::directionOf(cosine, 0.8);
       std::vector<GgxCase> inputs(count, c);
       for (GgxCase& input : inputs) {
-        input.u = {uniform(generator), 0};
-        input.u.y = uniform(generator);
-        input.uSide = uniform(generator);
+        input.u = {test::uniform(generator), 0};
+        input.u.y = test::uniform(generator);
+        input.uSide = test::uniform(generator);
       }
       const glm::dvec2 alpha(width);
       const auto binOf = [&](const glm::vec3& normal) {
@@ -230,7 +218,7 @@ TEST(FacetDistribution, SamplesStayInTheirDomainForExtremeRandomNumbers) {
           for (const float y : {0.0f, std::ldexp(1.0f, -24), 0.5f, last}) {
             for (const float side : {0.0f, last}) {
               GgxCase c = blank(alpha);
-              c.wo = direction(cosine, 3.14159265);
+              c.wo = test::directionOf(cosine, 3.14159265);
               c.u = {x, y};
               c.uSide = side;
               cases.push_back(c);

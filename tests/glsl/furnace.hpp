@@ -1,6 +1,7 @@
 // The white furnace for single surfaces: what a lossless material's samples weigh on the average.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,11 @@
 
 namespace isophote::test {
 
-// Weights times eta^2, whose mean is the directional albedo, at points of a rank-3 lattice (Roberts 2018).
-inline std::vector<Moments> sampledWeights(const std::vector<gpu::BsdfCase>& materials,
-                                           std::span<const gpu::SpecConstant> constants, int count) {
+/// Weights times eta^2 by channel, whose mean is the directional albedo, at points of a rank-3 lattice (Roberts 2018).
+inline std::vector<std::array<Moments, 3>> sampledWeights(const std::vector<gpu::BsdfCase>& materials,
+                                                          std::span<const gpu::SpecConstant> constants, int count) {
   const glm::dvec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-  std::vector<Moments> result(materials.size());
+  std::vector<std::array<Moments, 3>> result(materials.size());
   const size_t atOnce = std::max<size_t>(2'000'000 / size_t(count), 1);
   for (size_t first = 0; first < materials.size(); first += atOnce) {
     std::vector<gpu::BsdfCase> cases;
@@ -31,7 +32,8 @@ inline std::vector<Moments> sampledWeights(const std::vector<gpu::BsdfCase>& mat
     for (size_t i = 0; i < results.size(); ++i) {
       const double eta = results[i].eta;
       const bool isValid = (results[i].flags & gpu::kBsdfValid) != 0;
-      result[first + i / size_t(count)].add(isValid ? double(results[i].weight.y) * eta * eta : 0);
+      for (int k = 0; k < 3; ++k)
+        result[first + i / size_t(count)][size_t(k)].add(isValid ? double(results[i].weight[k]) * eta * eta : 0);
     }
   }
   return result;
@@ -44,7 +46,8 @@ inline std::vector<Moments> sampledWeights(const std::vector<gpu::BsdfCase>& mat
 /// points.
 inline void expectAllLight(const std::vector<gpu::BsdfCase>& cases, const std::vector<std::string>& labels,
                            std::span<const gpu::SpecConstant> constants, const std::string& name) {
-  std::vector<Moments> albedo = sampledWeights(cases, constants, 8000);
+  std::vector<Moments> albedo;
+  for (const auto& weights : sampledWeights(cases, constants, 8000)) albedo.push_back(weights[1]);
   std::vector<size_t> noisy;
   std::vector<gpu::BsdfCase> again;
   for (size_t i = 0; i < cases.size(); ++i) {
@@ -52,8 +55,8 @@ inline void expectAllLight(const std::vector<gpu::BsdfCase>& cases, const std::v
     noisy.push_back(i);
     again.push_back(cases[i]);
   }
-  const std::vector<Moments> better = sampledWeights(again, constants, 320000);
-  for (size_t i = 0; i < noisy.size(); ++i) albedo[noisy[i]] = better[i];
+  const auto better = sampledWeights(again, constants, 320000);
+  for (size_t i = 0; i < noisy.size(); ++i) albedo[noisy[i]] = better[i][1];
   double worst = 0;
   for (size_t i = 0; i < cases.size(); ++i) {
     const double error = albedo[i].standardError();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "glsl/directions.hpp"
 #include "glsl/ggx_case.h"
 #include "oracle/bsdf_ggx.hpp"
 #include "support/probe.hpp"
@@ -24,22 +25,9 @@ std::vector<GgxResult> evaluate(const std::vector<GgxCase>& cases) {
   return test::runProbe<GgxCase, GgxResult>(test_glsl_kernels::kernelSource("ggx_probe"), cases);
 }
 
-glm::vec3 direction(double cosine, double phi) {
-  const double sine = std::sqrt(1 - cosine * cosine);
-  return {float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(cosine)};
-}
-
-// A normal whose slope is `slope` in units of alpha.
-glm::vec3 tilted(const glm::vec2& alpha, double slope, double phi) {
-  const glm::dvec3 normal(double(alpha.x) * slope * std::cos(phi), double(alpha.y) * slope * std::sin(phi), 1);
-  return glm::vec3(glm::normalize(normal));
-}
-
-// Uniform numbers as kernels draw them: multiples of 2^-24.
 glm::vec2 uniformPair(std::mt19937& generator) {
-  const float scale = std::ldexp(1.0f, -24);
-  const float x = float(generator() >> 8) * scale;
-  return {x, float(generator() >> 8) * scale};
+  const float x = test::uniform(generator);
+  return {x, test::uniform(generator)};
 }
 
 double relativeError(float actual, double expected) { return std::abs(double(actual) / expected - 1); }
@@ -55,7 +43,7 @@ TEST(Ggx, DistributionMatchesTheOracleDownToTheSmallestAlpha) {
   for (const glm::vec2& alpha : kAlphas) {
     for (int i = 0; i < 400; ++i) {
       GgxCase c = blank(alpha);
-      c.wm = tilted(alpha, std::pow(10.0, -3 + 6.0 * i / 399), 0.7 * i);
+      c.wm = test::tiltedNormal(alpha, std::pow(10.0, -3 + 6.0 * i / 399), 0.7 * i);
       cases.push_back(c);
     }
   }
@@ -94,10 +82,10 @@ TEST(Ggx, MaskingAndDensitiesMatchTheOracleUpToGrazing) {
     for (const double cosine : {1e-6, 1e-4, 1e-2, 0.05, 0.3, 0.7, 1.0}) {
       for (const double other : {1e-6, 1e-3, 0.1, 0.5, 0.99}) {
         GgxCase c = blank(alpha);
-        c.wo = direction(cosine, 6 * uniformPair(generator).x);
-        c.wi = direction(other, 6 * uniformPair(generator).x);
+        c.wo = test::directionOf(cosine, 6 * uniformPair(generator).x);
+        c.wi = test::directionOf(other, 6 * uniformPair(generator).x);
         const glm::vec2 u = uniformPair(generator);
-        c.wm = tilted(alpha, std::tan(1.5 * double(u.x)), 6 * double(u.y));
+        c.wm = test::tiltedNormal(alpha, std::tan(1.5 * double(u.x)), 6 * double(u.y));
         cases.push_back(c);
       }
     }
@@ -142,7 +130,7 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
   std::mt19937 generator(11);
   for (const auto& [width, cosine] : cases) {
     GgxCase c = blank(width);
-    c.wo = direction(cosine, 0.8);
+    c.wo = test::directionOf(cosine, 0.8);
     std::vector<GgxCase> inputs(count, c);
     for (GgxCase& input : inputs) input.u = uniformPair(generator);
     const glm::dvec2 alpha(width);
@@ -180,7 +168,7 @@ TEST(Ggx, SamplesStayInTheirDomainForExtremeRandomNumbers) {
       for (const float x : {0.0f, std::ldexp(1.0f, -24), 0.25f, 0.5f, 0.75f, last}) {
         for (const float y : {0.0f, std::ldexp(1.0f, -24), 0.5f, last}) {
           GgxCase c = blank(alpha);
-          c.wo = direction(cosine, 3.14159265);
+          c.wo = test::directionOf(cosine, 3.14159265);
           c.u = {x, y};
           cases.push_back(c);
         }
@@ -207,7 +195,7 @@ TEST(Ggx, SampledWeightsAddUpToTheKnownAlbedo) {
   const int side = 700;
   for (const Known& known : table) {
     GgxCase c = blank(glm::vec2(float(known.alpha)));
-    c.wo = direction(known.mu, 0.3);
+    c.wo = test::directionOf(known.mu, 0.3);
     std::vector<GgxCase> cases(size_t(side) * side, c);
     for (int i = 0; i < side * side; ++i) {
       cases[size_t(i)].u = {float((i % side + 0.5) / side), float((i / side + 0.5) / side)};

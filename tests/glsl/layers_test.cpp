@@ -489,11 +489,15 @@ TEST(Layers, BothOverWhiteReflectEverything) {
   RecordProperty("most", std::to_string(most));
 }
 
+// The lattice is off by up to 5e-3 where a sheen is narrow.
 TEST(Layers, BothOverWhiteReflectEverythingSlow) {
-  const auto surfaces =
-      whiteUnderBoth({0.0f, 0.05f, 0.2f, 0.5f, 1.0f}, {0.0f, 0.05f, 0.2f, 0.5f, 1.0f}, {0.2f, 0.5f, 1.0f});
-  const auto albedos = sampledAlbedos(surfaces, 30000);
-  for (size_t i = 0; i < surfaces.size(); ++i) EXPECT_NEAR(albedos[i].y, 1, 1e-2) << describe(surfaces[i]);
+  for (const float coat : kRoughnesses) {
+    for (const float base : kRoughnesses) {
+      const auto surfaces = whiteUnderBoth({base}, {coat}, {0.2f, 0.5f, 1.0f});
+      const auto albedos = sampledAlbedos(surfaces, 60000);
+      for (size_t i = 0; i < surfaces.size(); ++i) EXPECT_NEAR(albedos[i].y, 1, 1e-2) << describe(surfaces[i]);
+    }
+  }
 }
 
 // The oracle's own check: the sheen as published, integrated another way than either table.

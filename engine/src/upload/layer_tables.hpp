@@ -20,7 +20,7 @@ namespace isophote {
 /// - x what the coat takes from the sheen's light,
 /// - y the coupling of both with facets over that of the coat alone,
 /// - zw of the facets' A, B what leaves both,
-/// and of means x and zw, there times A, B. About 0.2 s of one core.
+/// and of means x and zw, there times A, B.
 [[nodiscard]] const std::vector<glm::vec4>& coatedSheenTable(const FacetModel& model = {});
 
 } // namespace isophote
