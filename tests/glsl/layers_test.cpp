@@ -489,15 +489,21 @@ TEST(Layers, BothOverWhiteReflectEverything) {
   RecordProperty("most", std::to_string(most));
 }
 
-// The lattice is off by up to 5e-3 where a sheen is narrow.
+// The lattice is off by up to 1e-2 where a sheen is narrow; what is that far from 1 with it is measured anew.
 TEST(Layers, BothOverWhiteReflectEverythingSlow) {
+  std::vector<LayersCase> again;
   for (const float coat : kRoughnesses) {
     for (const float base : kRoughnesses) {
       const auto surfaces = whiteUnderBoth({base}, {coat}, {0.2f, 0.5f, 1.0f});
       const auto albedos = sampledAlbedos(surfaces, 60000);
-      for (size_t i = 0; i < surfaces.size(); ++i) EXPECT_NEAR(albedos[i].y, 1, 1e-2) << describe(surfaces[i]);
+      for (size_t i = 0; i < surfaces.size(); ++i) {
+        if (std::abs(albedos[i].y - 1) > 8e-3) again.push_back(surfaces[i]);
+      }
     }
   }
+  ASSERT_LT(again.size(), 20u);
+  for (const LayersCase& surface : again)
+    EXPECT_NEAR(sampledAlbedos({surface}, 2'000'000)[0].y, 1, 1e-2) << describe(surface);
 }
 
 // The oracle's own check: the sheen as published, integrated another way than either table.
