@@ -28,23 +28,12 @@ TEST(Adaptive, APixelListGivesThosePixelsTheirSamplesBitForBit) {
   expectHealthy(tracer.statistics());
 }
 
-/// A floor under a sphere of radius 0.2 at distance 2, which only directions by chance find: one in a hundred. Every
-/// pixel expects 1/4.
-Scene floorUnderAFarSphere() {
-  Scene scene = lambertFloor(glm::vec3(1), 2);
-  PunctualLight light;
-  light.position = {0, 2, 0};
-  light.intensity = glm::vec3(3.14159265f);
-  light.radius = 0.2f;
-  scene.lights.push_back(light);
-  return scene;
-}
-
-// A million samples: the mean is known to 6%. A pilot that were part of the image would make it darker by about that
-// much: where it saw no light, the image would keep the pilot's darkness among few samples.
+// A small sphere, which directions by chance find one in a hundred times. A million samples: the mean is known to 6%. A
+// pilot that were part of the image would make it darker by about that much: where it saw no light, the image would
+// keep the pilot's darkness among few samples.
 TEST(Adaptive, AChoiceByOtherSamplesHasNoBias) {
   constexpr uint32_t kSide = 64;
-  const GpuScene scene(gpuDevice(), floorUnderAFarSphere());
+  const GpuScene scene(gpuDevice(), floorUnderASphere(0.2f));
   PathTracer tracer(gpuDevice(), scene,
                     {.filter = PixelFilter::Box, .lightSampling = LightSampling::BsdfOnly, .maxDepth = 1});
   Film film(gpuDevice(), {.width = kSide, .height = kSide, .aovs = false});

@@ -38,35 +38,13 @@ struct ConvergenceScene {
   uint32_t maxDepth = kUnlimitedDepth;
 };
 
-Scene floorUnderASphereLight() {
-  Scene scene = lambertFloor(glm::vec3(1), 2);
-  PunctualLight light;
-  light.position = {0, 2, 0};
-  light.intensity = glm::vec3(3.14159265f);
-  light.radius = 1;
-  scene.lights.push_back(light);
-  return scene;
-}
-
-/// A checkerboard of 1 and 3: its mean over the hemisphere is 2.
-Scene floorUnderACheckeredSky() {
-  Environment sky;
-  sky.width = 64;
-  sky.height = 32;
-  for (uint32_t i = 0; i < sky.width * sky.height; ++i)
-    sky.pixels.emplace_back(i % sky.width < sky.width / 2 ? 3.0f : 1.0f);
-  Scene scene = lambertFloor(glm::vec3(0.5f), 2);
-  scene.environment = sky;
-  return scene;
-}
-
 const std::vector<ConvergenceScene>& convergenceScenes() {
   const Camera sensor = sensorAt({0, 0, 0});
   static const std::vector<ConvergenceScene> scenes = {
       {"furnace", [] { return boxFurnace(glm::vec3(1), glm::vec3(0.5f)); }, boxFurnaceCamera(), 2.0},
       {"square light", [] { return squareLightOverFloor(2); }, sensor, 2 * 0.2394564705, 1},
-      {"sphere light", floorUnderASphereLight, sensor, 0.25, 1},
-      {"sky", floorUnderACheckeredSky, sensor, 1.0, 1},
+      {"sphere light", [] { return floorUnderASphere(1); }, sensor, 0.25, 1},
+      {"sky", floorUnderAHalfBrightSky, sensor, 1.0, 1},
       {"Cornell box", cornellBox, cornellCamera(), std::nullopt},
       {"glossy spheres", materialSpheres, materialSpheresCamera(), std::nullopt},
       {"textures", texturedStillLife, texturedStillLifeCamera(), std::nullopt},

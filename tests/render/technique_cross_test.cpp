@@ -73,17 +73,7 @@ AnalyticScene withFloor(const char* name, const PunctualLight& light, double irr
   return {name, std::move(scene), sensorAt({0, 0, 0}), irradiance / kPi, 1};
 }
 
-/// Half of the hemisphere is bright: a checkerboard of an environment whose parts sum to half, seen by a floor.
-AnalyticScene halfSky() {
-  Environment sky;
-  sky.width = 64;
-  sky.height = 32;
-  for (uint32_t i = 0; i < sky.width * sky.height; ++i)
-    sky.pixels.emplace_back(i % sky.width < sky.width / 2 ? 3.0f : 1.0f);
-  Scene scene = lambertFloor(glm::vec3(0.5f), 2);
-  scene.environment = sky;
-  return {"HalfSky", std::move(scene), sensorAt({0, 0, 0}), 0.5 * 2, 1};
-}
+AnalyticScene halfSky() { return {"HalfSky", floorUnderAHalfBrightSky(), sensorAt({0, 0, 0}), 0.5 * 2, 1}; }
 
 /// Panes of glass before a wide emitter (numbers 30 and 31), seen at an angle from their normal.
 AnalyticScene panes(uint32_t count, double degrees, double expected) {

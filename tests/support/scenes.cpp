@@ -114,6 +114,27 @@ Scene ballsOf(const std::vector<Material>& materials) {
 
 Camera ballsCamera() { return lookAt({0, 1.2, 4}, {0, 0.5, 0}, 0.6); }
 
+Scene floorUnderASphere(float radius) {
+  Scene scene = lambertFloor(glm::vec3(1), 2);
+  PunctualLight light;
+  light.position = {0, 2, 0};
+  light.intensity = glm::vec3(3.14159265f);
+  light.radius = radius;
+  scene.lights.push_back(light);
+  return scene;
+}
+
+Scene floorUnderAHalfBrightSky() {
+  Environment sky;
+  sky.width = 64;
+  sky.height = 32;
+  for (uint32_t i = 0; i < sky.width * sky.height; ++i)
+    sky.pixels.emplace_back(i % sky.width < sky.width / 2 ? 3.0f : 1.0f);
+  Scene scene = lambertFloor(glm::vec3(0.5f), 2);
+  scene.environment = sky;
+  return scene;
+}
+
 Scene alphaLayers(uint32_t layers, float alpha) {
   Scene scene;
   scene.name = "alpha layers";

@@ -17,6 +17,12 @@ using namespace envelope; // materials, primitives, cameras
 /// For rigid, scaled and mirrored maps; normals and tangents follow.
 [[nodiscard]] Scene flattened(const Scene& scene);
 
+/// White floor under a sphere light at distance 2: radiance 1/4 at the origin, whatever its radius.
+[[nodiscard]] Scene floorUnderASphere(float radius);
+
+/// Floor of reflectance 1/2 under an environment of 3 in one half of the hemisphere and 1 in the other: radiance 1.
+[[nodiscard]] Scene floorUnderAHalfBrightSky();
+
 /// Point light at the center of a Lambert sphere of radius 1 seen from inside.
 [[nodiscard]] Scene sphereWithPointLight(float intensity, float rho, uint32_t rings);
 
