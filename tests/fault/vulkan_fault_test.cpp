@@ -66,7 +66,8 @@ void expectRefusedAndNothingLeft(const Scene& scene, uint64_t nth) {
     device = true;
     what = error.what();
   }
-  const auto& faults = fault::vulkanFaults();
+  const fault::VulkanFaults faults = fault::vulkanFaults();
+  fault::armVulkan(0);
   // Submits adapt to their time, so that there may be fewer calls; and a pipeline cache one can do without.
   if (faults.failed.empty() || faults.failed == "vkCreatePipelineCache") return;
   const bool lost = faults.result == VK_ERROR_DEVICE_LOST;
@@ -76,7 +77,6 @@ void expectRefusedAndNothingLeft(const Scene& scene, uint64_t nth) {
   }
   EXPECT_EQ(messages, std::vector<std::string>{}) << faults.failed;
   EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-  fault::armVulkan(0);
 }
 
 void sweep(uint64_t first, uint64_t step) {
