@@ -1,7 +1,7 @@
 // The isophote command.
 #include <exception>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "console.hpp"
 #include "exit_codes.hpp"
 #include "isophote/version.hpp"

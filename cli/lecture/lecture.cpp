@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "interrupt.hpp"
 #include "isophote/error_split.hpp"
 #include "lecture/course.hpp"
 #include "lecture/formulas.hpp"
+#include "rendering/interrupt.hpp"
 #include "trade/measurement.hpp"
 #include "trade/study_files.hpp"
 #include "trade/workbench.hpp"

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "interrupt.hpp"
 #include "isophote/error.hpp"
+#include "rendering/interrupt.hpp"
 #include "shared/film_types.h"
 
 namespace isophote::cli {

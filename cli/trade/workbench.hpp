@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "input/scene_source.hpp"
 #include "isophote/path_tracer.hpp"
-#include "scene_source.hpp"
 #include "setting_table.hpp"
 
 namespace isophote::cli {

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "adaptive.hpp"
-#include "checkpoint_keeper.hpp"
 #include "isophote/error_target.hpp"
 #include "isophote/path_tracer.hpp"
-#include "progress_line.hpp"
+#include "rendering/adaptive.hpp"
+#include "rendering/checkpoint_keeper.hpp"
+#include "rendering/progress_line.hpp"
 
 namespace isophote::cli {
 

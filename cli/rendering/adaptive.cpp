@@ -1,4 +1,4 @@
-#include "adaptive.hpp"
+#include "rendering/adaptive.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "scene_summary.hpp"
+#include "input/scene_summary.hpp"
 
 #include "shared/geometry_types.h"
 

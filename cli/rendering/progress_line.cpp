@@ -1,4 +1,4 @@
-#include "progress_line.hpp"
+#include "rendering/progress_line.hpp"
 
 #include <algorithm>
 #include <cmath>

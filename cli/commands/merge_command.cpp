@@ -8,12 +8,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "exit_codes.hpp"
 #include "isophote/error.hpp"
 #include "isophote/film.hpp"
-#include "receipt.hpp"
-#include "render_report.hpp"
+#include "rendering/receipt.hpp"
+#include "rendering/render_report.hpp"
 
 namespace isophote::cli {
 namespace {

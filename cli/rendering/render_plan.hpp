@@ -9,8 +9,8 @@
 #include "isophote/error_target.hpp"
 #include "isophote/gpu_scene.hpp"
 #include "isophote/path_tracer.hpp"
-#include "pace.hpp"
-#include "render_options.hpp"
+#include "rendering/pace.hpp"
+#include "rendering/render_options.hpp"
 
 namespace isophote::cli {
 

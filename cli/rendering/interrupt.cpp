@@ -1,4 +1,4 @@
-#include "interrupt.hpp"
+#include "rendering/interrupt.hpp"
 
 #include <atomic>
 #include <csignal>

@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "exit_codes.hpp"
-#include "interrupt.hpp"
+#include "input/scene_source.hpp"
 #include "isophote/coverage.hpp"
 #include "isophote/error.hpp"
 #include "isophote/path_tracer.hpp"
 #include "parse.hpp"
-#include "scene_source.hpp"
+#include "rendering/interrupt.hpp"
 
 namespace isophote::cli {
 namespace {

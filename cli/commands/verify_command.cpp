@@ -10,18 +10,18 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "console.hpp"
 #include "exit_codes.hpp"
-#include "interrupt.hpp"
+#include "input/scene_files.hpp"
 #include "isophote/compare.hpp"
 #include "isophote/error.hpp"
 #include "isophote/path_tracer.hpp"
 #include "isophote/version.hpp"
 #include "parse.hpp"
-#include "progress_line.hpp"
-#include "receipt.hpp"
-#include "scene_files.hpp"
+#include "rendering/interrupt.hpp"
+#include "rendering/progress_line.hpp"
+#include "rendering/receipt.hpp"
 
 namespace isophote::cli {
 namespace {

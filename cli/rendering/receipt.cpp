@@ -1,4 +1,4 @@
-#include "receipt.hpp"
+#include "rendering/receipt.hpp"
 
 #include <algorithm>
 

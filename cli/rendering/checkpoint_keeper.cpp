@@ -1,4 +1,4 @@
-#include "checkpoint_keeper.hpp"
+#include "rendering/checkpoint_keeper.hpp"
 
 #include <algorithm>
 #include <filesystem>

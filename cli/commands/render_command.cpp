@@ -9,15 +9,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "console.hpp"
 #include "exit_codes.hpp"
-#include "interrupt.hpp"
+#include "input/scene_files.hpp"
 #include "isophote/error.hpp"
-#include "render_options.hpp"
-#include "render_plan.hpp"
-#include "render_report.hpp"
-#include "scene_files.hpp"
+#include "rendering/interrupt.hpp"
+#include "rendering/render_options.hpp"
+#include "rendering/render_plan.hpp"
+#include "rendering/render_report.hpp"
 
 namespace isophote::cli {
 namespace {

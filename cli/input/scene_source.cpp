@@ -1,4 +1,4 @@
-#include "scene_source.hpp"
+#include "input/scene_source.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "input/scene_files.hpp"
 #include "isophote/error.hpp"
 #include "isophote/features.hpp"
 #include "isophote/gltf.hpp"
 #include "parse.hpp"
-#include "scene_files.hpp"
 
 namespace isophote::cli {
 namespace {

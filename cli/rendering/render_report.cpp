@@ -1,4 +1,4 @@
-#include "render_report.hpp"
+#include "rendering/render_report.hpp"
 
 #include <fmt/format.h>
 

@@ -6,12 +6,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "exit_codes.hpp"
+#include "input/scene_source.hpp"
+#include "input/scene_summary.hpp"
 #include "isophote/features.hpp"
 #include "isophote/gltf.hpp"
-#include "scene_source.hpp"
-#include "scene_summary.hpp"
 
 namespace isophote::cli {
 namespace {

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "exit_codes.hpp"
+#include "input/scene_source.hpp"
 #include "isophote/path_tracer.hpp"
 #include "isophote/ray_bench.hpp"
 #include "parse.hpp"
-#include "scene_source.hpp"
 
 namespace isophote::cli {
 namespace {

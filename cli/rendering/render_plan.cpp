@@ -1,4 +1,4 @@
-#include "render_plan.hpp"
+#include "rendering/render_plan.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,9 +8,9 @@
 
 #include "console.hpp"
 #include "exit_codes.hpp"
-#include "interrupt.hpp"
-#include "progress_line.hpp"
-#include "render_report.hpp"
+#include "rendering/interrupt.hpp"
+#include "rendering/progress_line.hpp"
+#include "rendering/render_report.hpp"
 
 namespace isophote::cli {
 namespace {

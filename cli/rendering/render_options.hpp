@@ -7,11 +7,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "checkpoint_keeper.hpp"
+#include "input/scene_source.hpp"
 #include "isophote/image.hpp"
-#include "scene_source.hpp"
+#include "rendering/checkpoint_keeper.hpp"
+#include "rendering/stop_rule.hpp"
 #include "setting_table.hpp"
-#include "stop_rule.hpp"
 
 namespace isophote::cli {
 

@@ -1,4 +1,4 @@
-#include "scene_files.hpp"
+#include "input/scene_files.hpp"
 
 #include <cstdint>
 #include <cstring>

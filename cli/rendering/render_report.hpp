@@ -7,11 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "input/scene_source.hpp"
 #include "isophote/device.hpp"
 #include "isophote/path_tracer.hpp"
-#include "scene_source.hpp"
+#include "rendering/stop_rule.hpp"
 #include "setting_table.hpp"
-#include "stop_rule.hpp"
 
 namespace isophote::cli {
 

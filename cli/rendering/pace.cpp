@@ -1,4 +1,4 @@
-#include "pace.hpp"
+#include "rendering/pace.hpp"
 
 #include <algorithm>
 #include <cmath>

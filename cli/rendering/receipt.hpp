@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "input/scene_source.hpp"
 #include "isophote/image.hpp"
-#include "scene_source.hpp"
 #include "setting_table.hpp"
 
 namespace isophote::cli {

@@ -1,4 +1,4 @@
-#include "render_options.hpp"
+#include "rendering/render_options.hpp"
 
 #include <limits>
 

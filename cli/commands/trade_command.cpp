@@ -8,15 +8,15 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "console.hpp"
 #include "exit_codes.hpp"
-#include "interrupt.hpp"
+#include "input/scene_files.hpp"
 #include "isophote/error.hpp"
 #include "lecture/lecture.hpp"
 #include "parse.hpp"
-#include "progress_line.hpp"
-#include "scene_files.hpp"
+#include "rendering/interrupt.hpp"
+#include "rendering/progress_line.hpp"
 #include "trade/page.hpp"
 #include "trade/study.hpp"
 #include "trade/study_files.hpp"

@@ -1,10 +1,10 @@
-#include "stop_rule.hpp"
+#include "rendering/stop_rule.hpp"
 
 #include <algorithm>
 #include <chrono>
 
-#include "interrupt.hpp"
-#include "pace.hpp"
+#include "rendering/interrupt.hpp"
+#include "rendering/pace.hpp"
 
 namespace isophote::cli {
 namespace {

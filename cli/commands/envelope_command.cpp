@@ -11,14 +11,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "commands.hpp"
+#include "commands/commands.hpp"
+#include "commands/envelope_report.hpp"
 #include "console.hpp"
-#include "envelope_report.hpp"
 #include "exit_codes.hpp"
-#include "interrupt.hpp"
 #include "isophote/error.hpp"
 #include "isophote/image.hpp"
-#include "progress_line.hpp"
+#include "rendering/interrupt.hpp"
+#include "rendering/progress_line.hpp"
 
 namespace isophote::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "envelope_report.hpp"
+#include "commands/envelope_report.hpp"
 
 #include <algorithm>
 #include <cmath>
