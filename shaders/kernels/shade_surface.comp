@@ -77,8 +77,8 @@ float etaScaleBehind(const uint slot, const float eta) {
 
 // Continues the path by a BSDF sample; false where it ends.
 bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material, const BsdfAtWo at,
-                  const Frame frame, const vec3 woLocal, const MediumCrossing crossing, const SampleKey key, const uint pair,
-                  const uint slot, inout PathState path) {
+                  const Frame frame, const vec3 woLocal, const MediumCrossing crossing, const SampleKey key,
+                  const uint pair, const uint slot, inout PathState path) {
   const vec2 choice = sample2d(key, pair + 3u);
   const BsdfSample bsdf = sampleDirection(scene, material.bsdf, at, woLocal, choice.x, sample2d(key, pair + 2u));
   if (!bsdf.valid) return false;
