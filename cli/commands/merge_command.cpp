@@ -1,6 +1,7 @@
 // `isophote merge`: shards of one render become the image of the whole, bit for bit.
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include "commands/commands.hpp"
 #include "exit_codes.hpp"
+#include "isophote/denoise.hpp"
 #include "isophote/error.hpp"
 #include "isophote/film.hpp"
 #include "rendering/receipt.hpp"
@@ -24,6 +26,7 @@ struct MergeOptions {
   std::vector<std::string> inputs;
   std::string output;
   std::string device;
+  bool denoise = false;
   bool quiet = false;
 };
 
@@ -126,13 +129,33 @@ private:
   float seconds_ = 0;
 };
 
+/// Adds the denoised layer, and its line of the ledger.
+void denoise(Image& image) {
+  addDenoised(image);
+  const auto mean = [&](const char* prefix) {
+    glm::dvec3 sum{0};
+    for (int c = 0; c < 3; ++c) {
+      const std::vector<float>& values = image.find(prefix + std::string(1, "RGB"[c]))->values;
+      sum[c] = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    }
+    return sum;
+  };
+  const Settings denoising{.layers = {.denoiser = Denoiser::Atrous}};
+  Json entry = biasJson(denoising);
+  entry["denoiser"].update(denoisedJson(mean(""), mean("denoised.")));
+  Json bias = Json::parse(image.attributes["isophote.bias"]);
+  bias.update(entry);
+  image.attributes["isophote.bias"] = bias.dump();
+}
+
 int runMerge(const MergeOptions& options) {
   checkWritable(options.output);
   Merger merger;
   for (const std::string& file : options.inputs) merger.add(file);
   const VulkanInstance instance({.validation = false});
   const Device device(instance, {.selector = options.device});
-  const Image image = merger.result(device);
+  Image image = merger.result(device);
+  if (options.denoise) denoise(image);
   writeExr(options.output, image);
   if (!options.quiet) {
     fmt::print("{} images, samples {}: {}\n", options.inputs.size(), image.attributes.at("isophote.sampleRange"),
@@ -151,6 +174,7 @@ void addMergeCommand(CLI::App& program, Action& action) {
       ->expected(1, -1);
   command->add_option("-o,--output", options->output, "Image to write, .exr")->type_name("F")->required();
   command->add_option("--device", options->device, "Vulkan device, as for render")->type_name("NAME|INDEX|cpu");
+  command->add_flag("--denoise", options->denoise, "Add the layer denoised.{R,G,B}, as `isophote render --denoise`");
   command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
   command->footer(R"(Examples:
   isophote render scene.glb -o a.exr --sample-range 0:512         on one machine

@@ -107,6 +107,7 @@ Json ledgerJson(const RenderReport& report) {
   };
   if (ledger.contains("clamp")) account(ledger["clamp"], report.clamped, "clamped.{R,G,B}");
   if (ledger.contains("max-depth") && report.beyond) account(ledger["max-depth"], *report.beyond, "beyond.{R,G,B}");
+  if (ledger.contains("denoiser")) ledger["denoiser"].update(denoisedJson(report.kept, report.denoised));
   const StatusCounters& status = report.statistics.status;
   const uint64_t samples = report.statistics.primaryRays;
   const uint64_t lost = status.nonFinite + status.negative + status.clipped;
@@ -134,7 +135,7 @@ const char* outcomeName(Outcome outcome) {
 
 /// What was asked for: the estimator's settings, the image, the camera and the light around the scene.
 Json requestJson(const RenderReport& report) {
-  Json settings = settingsJson(report.settings, false);
+  Json settings = settingsJson(report.settings, SettingKind::Estimator);
   settings["image"] = sizeJson(report);
   settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
   if (!report.view.framing) settings["camera_index"] = report.view.cameraIndex;
@@ -189,6 +190,7 @@ Json statsJson(const RenderReport& report) {
             {"upload", report.seconds.upload},
             {"compile", report.seconds.compile},
             {"render", seconds},
+            {"denoise", report.seconds.denoise},
             {"write", report.seconds.write},
             {"first_pixel", render.firstPixelSeconds}}},
           {"memory",
@@ -213,8 +215,8 @@ Json statsJson(const RenderReport& report) {
           {"outcome", outcomeName(report.result.outcome)},
           {"image", sizeJson(report)},
           {"sample_range", {report.samples.first, report.samples.last}},
-          {"settings", settingsJson(report.settings, false)},
-          {"execution", settingsJson(report.settings, true)},
+          {"settings", settingsJson(report.settings, SettingKind::Estimator)},
+          {"execution", settingsJson(report.settings, SettingKind::Execution)},
           {"path_pool_size", render.pathPoolSize},
           {"workgroup_size", render.workgroupSize},
           {"buffers", buffersJson(report)},
@@ -233,11 +235,21 @@ std::string sampleIdentity(const RenderReport& report, uint32_t firstSample) {
   return dump(identity);
 }
 
+Json denoisedJson(const glm::dvec3& image, const glm::dvec3& layer) {
+  const glm::dvec3 removed = image - layer;
+  const double whole = image.r + image.g + image.b;
+  return {{"removed", {removed.r, removed.g, removed.b}},
+          {"removed_share", whole > 0 ? (removed.r + removed.g + removed.b) / whole : 0.0},
+          {"layer", "denoised.{R,G,B}"}};
+}
+
 std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
+  Json request = requestJson(report);
+  if (report.settings.layers.denoiser != Denoiser::None) request.update(settingsJson(report.settings, SettingKind::Layer));
   return {{"isophote.version", kVersion},
           {"isophote.scene", report.scene},
           {"isophote.sceneHash", report.sceneHash},
-          {"isophote.settings", dump(requestJson(report))},
+          {"isophote.settings", dump(request)},
           {"isophote.device", fmt::format("{}, {}", report.device.name, report.device.driver)},
           {"isophote.features", dump(report.features.names())},
           {"isophote.seed", std::to_string(report.settings.estimator.seed)},

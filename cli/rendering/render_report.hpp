@@ -22,6 +22,7 @@ struct PhaseSeconds {
   double upload = 0;
   double compile = 0;
   double render = 0;
+  double denoise = 0;
   double write = 0;
 };
 
@@ -47,6 +48,7 @@ struct RenderReport {
   glm::dvec3 clamped{0};            ///< mean radiance that the clamp setting removed, R, G, B
   std::optional<glm::dvec3> beyond; ///< that the depth limit left out, where it was measured
   glm::dvec3 kept{0};               ///< mean radiance of the image
+  glm::dvec3 denoised{0};           ///< of its denoised layer, where there is one
 };
 
 /// Schema 1.
@@ -57,6 +59,9 @@ struct RenderReport {
 
 /// All that the bits of a pixel's samples depend on, and the first of them: JSON of one object.
 [[nodiscard]] std::string sampleIdentity(const RenderReport& report, uint32_t firstSample);
+
+/// Of the ledger: what the denoised layer lacks, or has too much, of the image's mean radiance.
+[[nodiscard]] nlohmann::ordered_json denoisedJson(const glm::dvec3& image, const glm::dvec3& layer);
 
 /// The value of the attribute isophote.error.
 [[nodiscard]] std::string errorText(const ErrorEstimate& error);
