@@ -150,17 +150,18 @@ std::vector<SettingEntry> makeTable() {
             &E::clamp),
       number({"seed", "0 to 18446744073709551615", "0", "0", "another seed is another, independent image"}, estimator,
              &E::seed, ~uint64_t{0}, nullptr, uint64_t{0}),
-      number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", SettingKind::Execution}, execution,
-             &X::pathPoolSize, 1u << 22, "auto", uint32_t{0}),
-      number({"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup",
-              SettingKind::Execution}, execution,
-             &X::workgroupSize, 1024, "auto", uint32_t{0}),
+      number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", SettingKind::Execution},
+             execution, &X::pathPoolSize, 1u << 22, "auto", uint32_t{0}),
+      number(
+          {"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup", SettingKind::Execution},
+          execution, &X::workgroupSize, 1024, "auto", uint32_t{0}),
       choice({"depth-ledger", "on, off", "on", "on",
-              "with a max-depth, follow one in eight paths beyond it to measure what it leaves out", SettingKind::Execution},
+              "with a max-depth, follow one in eight paths beyond it to measure what it leaves out",
+              SettingKind::Execution},
              execution, &X::depthLedger, onOff),
-      choice({"specialize", "on, off", "on", "on", "kernels without what the scene does not use",
-              SettingKind::Execution}, execution,
-             &X::specialize, onOff),
+      choice(
+          {"specialize", "on, off", "on", "on", "kernels without what the scene does not use", SettingKind::Execution},
+          execution, &X::specialize, onOff),
   };
 }
 

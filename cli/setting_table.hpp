@@ -32,8 +32,9 @@ enum class SettingKind {
 struct SettingEntry {
   const char* key;
   const char* values; ///< what it takes
-  const char* exact;  ///< the unbiased value; for other kinds than the estimator's the default, as none changes the image
-  const char* fast;   ///< a cheaper one; equal to `exact` where nothing is traded
+  const char*
+      exact;        ///< the unbiased value; for other kinds than the estimator's the default, as none changes the image
+  const char* fast; ///< a cheaper one; equal to `exact` where nothing is traded
   const char* description;
   SettingKind kind;
   std::function<void(Settings&, const std::string&)> set; ///< @throws UsageError

@@ -1,7 +1,6 @@
 // `isophote merge`: shards of one render become the image of the whole, bit for bit.
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -132,17 +131,9 @@ private:
 /// Adds the denoised layer, and its line of the ledger.
 void denoise(Image& image) {
   addDenoised(image);
-  const auto mean = [&](const char* prefix) {
-    glm::dvec3 sum{0};
-    for (int c = 0; c < 3; ++c) {
-      const std::vector<float>& values = image.find(prefix + std::string(1, "RGB"[c]))->values;
-      sum[c] = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    }
-    return sum;
-  };
   const Settings denoising{.layers = {.denoiser = Denoiser::Atrous}};
   Json entry = biasJson(denoising);
-  entry["denoiser"].update(denoisedJson(mean(""), mean("denoised.")));
+  entry["denoiser"].update(denoisedJson(colorMean(image, ""), colorMean(image, "denoised.")));
   Json bias = Json::parse(image.attributes["isophote.bias"]);
   bias.update(entry);
   image.attributes["isophote.bias"] = bias.dump();

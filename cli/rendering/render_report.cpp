@@ -1,5 +1,7 @@
 #include "rendering/render_report.hpp"
 
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "isophote/version.hpp"
@@ -152,6 +154,12 @@ Json requestJson(const RenderReport& report) {
   return settings;
 }
 
+double channelMean(const Image& image, const std::string& name) {
+  const Channel* channel = image.find(name);
+  if (channel == nullptr || channel->values.empty()) return 0;
+  return std::accumulate(channel->values.begin(), channel->values.end(), 0.0) / double(channel->values.size());
+}
+
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 } // namespace
@@ -235,6 +243,10 @@ std::string sampleIdentity(const RenderReport& report, uint32_t firstSample) {
   return dump(identity);
 }
 
+glm::dvec3 colorMean(const Image& image, const std::string& prefix) {
+  return {channelMean(image, prefix + "R"), channelMean(image, prefix + "G"), channelMean(image, prefix + "B")};
+}
+
 Json denoisedJson(const glm::dvec3& image, const glm::dvec3& layer) {
   const glm::dvec3 removed = image - layer;
   const double whole = image.r + image.g + image.b;
@@ -245,7 +257,8 @@ Json denoisedJson(const glm::dvec3& image, const glm::dvec3& layer) {
 
 std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
   Json request = requestJson(report);
-  if (report.settings.layers.denoiser != Denoiser::None) request.update(settingsJson(report.settings, SettingKind::Layer));
+  if (report.settings.layers.denoiser != Denoiser::None)
+    request.update(settingsJson(report.settings, SettingKind::Layer));
   return {{"isophote.version", kVersion},
           {"isophote.scene", report.scene},
           {"isophote.sceneHash", report.sceneHash},

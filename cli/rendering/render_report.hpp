@@ -60,6 +60,9 @@ struct RenderReport {
 /// All that the bits of a pixel's samples depend on, and the first of them: JSON of one object.
 [[nodiscard]] std::string sampleIdentity(const RenderReport& report, uint32_t firstSample);
 
+/// The mean of three channels: R, G, B after `prefix`; 0 where the image lacks them.
+[[nodiscard]] glm::dvec3 colorMean(const Image& image, const std::string& prefix);
+
 /// Of the ledger: what the denoised layer lacks, or has too much, of the image's mean radiance.
 [[nodiscard]] nlohmann::ordered_json denoisedJson(const glm::dvec3& image, const glm::dvec3& layer);
 

@@ -62,6 +62,8 @@ bool Configuration::executionOnly() const {
                      [](const Change& change) { return findEntry(change.key).kind == SettingKind::Execution; });
 }
 
+bool Configuration::denoised() const { return settings().layers.denoiser != Denoiser::None; }
+
 Configuration Configuration::combinedWith(const Configuration& other) const {
   Configuration both = *this;
   for (const Change& change : other.changes) {

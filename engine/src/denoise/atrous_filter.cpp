@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <future>
+#include <limits>
 #include <thread>
 
 namespace isophote::denoise {
@@ -16,13 +17,16 @@ constexpr double kSquaredWeights = (70.0 / 256) * (70.0 / 256);
 
 // Standard deviations of the color that may differ by noise, the k of the header.
 constexpr float kColorTolerance = 1.4142136f;
-constexpr float kNormalPower = 128; // Schied et al. 2017, section 4.4
+constexpr int kNormalSquarings = 7; // the cosine to the power of 128: Schied et al. 2017, section 4.4
 constexpr float kAlbedoTolerance = 0.1f;
 constexpr float kCoverageTolerance = 0.1f;
 constexpr float kPlaneTolerance = 0.1f; // sine of the angle at which a neighbor lies off the tangent plane
 
 /// Rounding of colors and positions, relative: differences as small are none.
 constexpr float kRounding = 1e-6f;
+
+/// Exponents beyond which a tap is left out.
+constexpr float kNegligible = 16;
 
 /// Sum of the squared weights of the first `levels` levels, one after the other, in one direction.
 double squaredWeights(uint32_t levels) {
@@ -46,22 +50,27 @@ float tapCorrelation(uint32_t level) {
   return static_cast<float>((oneWay * oneWay - kSquaredWeights) / (1 - kSquaredWeights));
 }
 
-float guideWeight(const Guide& p, const Guide& q) {
-  if (p.empty || q.empty) return 0;
+/// Half the squared difference of two pixels' first hits, in tolerances: the weight's exponent, without normals.
+float guideDistance(const Guide& p, const Guide& q) {
+  if (p.empty || q.empty) return std::numeric_limits<float>::infinity();
   const float coverage = (p.coverage - q.coverage) / kCoverageTolerance;
-  float exponent = 0.5f * coverage * coverage;
-  if (p.coverage <= 0 || q.coverage <= 0) return std::exp(-exponent);
+  if (p.coverage <= 0 || q.coverage <= 0) return 0.5f * coverage * coverage;
   const glm::vec3 albedo = (p.albedo - q.albedo) / kAlbedoTolerance;
-  exponent += 0.5f * glm::dot(albedo, albedo);
   const glm::vec3 way = q.position - p.position;
   const float off = std::max(std::abs(glm::dot(p.normal, way)), std::abs(glm::dot(q.normal, way)));
   const float rounding = kRounding * (glm::length(p.position) + glm::length(q.position)) + 1e-30f;
   const float plane = off / (kPlaneTolerance * glm::length(way) + rounding);
-  exponent += 0.5f * plane * plane;
-  return std::pow(std::max(glm::dot(p.normal, q.normal), 0.0f), kNormalPower) * std::exp(-exponent);
+  return 0.5f * (coverage * coverage + glm::dot(albedo, albedo) + plane * plane);
 }
 
-float colorWeight(const glm::vec3& p, const glm::vec3& pVariance, const glm::vec3& q, const glm::vec3& qVariance) {
+float normalWeight(const Guide& p, const Guide& q) {
+  if (p.coverage <= 0 || q.coverage <= 0) return 1;
+  float weight = std::max(glm::dot(p.normal, q.normal), 0.0f);
+  for (int i = 0; i < kNormalSquarings; ++i) weight *= weight;
+  return weight;
+}
+
+float colorDistance(const glm::vec3& p, const glm::vec3& pVariance, const glm::vec3& q, const glm::vec3& qVariance) {
   float most = 0;
   for (int c = 0; c < 3; ++c) {
     const float difference = p[c] - q[c];
@@ -69,7 +78,7 @@ float colorWeight(const glm::vec3& p, const glm::vec3& pVariance, const glm::vec
     const float joint = pVariance[c] + std::min(pVariance[c], qVariance[c]) + rounding * rounding;
     most = std::max(most, difference * difference / (2 * kColorTolerance * kColorTolerance * joint));
   }
-  return std::exp(-most);
+  return most;
 }
 
 /// Calls `row(y)` for each of them, in bands side by side.
@@ -131,7 +140,9 @@ std::vector<glm::vec3> smoothedVariance(const FilterImage& image, const std::vec
       float weights = 0;
       glm::vec3 sum{0};
       forTaps(image, {x, y}, 1, 1, [&](size_t q, float kernel) {
-        const float weight = q == p ? kernel : kernel * guideWeight(guides[p], guides[q]);
+        const float weight =
+            q == p ? kernel
+                   : kernel * normalWeight(guides[p], guides[q]) * std::exp(-guideDistance(guides[p], guides[q]));
         weights += weight;
         sum += weight * image.variance[q];
       });
@@ -151,10 +162,11 @@ FilterImage filterLevel(const FilterImage& image, const std::vector<Guide>& guid
       forTaps(image, {x, y}, kRadius, 1 << level, [&](size_t q, float kernel) {
         float weight = kernel;
         if (q != p) {
-          weight *= colorWeight(image.color[p], image.variance[p], image.color[q], image.variance[q]);
-          if (weight > 1e-6f) weight *= guideWeight(guides[p], guides[q]);
+          const float color = colorDistance(image.color[p], image.variance[p], image.color[q], image.variance[q]);
+          if (color > kNegligible) return;
+          weight *= normalWeight(guides[p], guides[q]) * std::exp(-color - guideDistance(guides[p], guides[q]));
         }
-        if (weight > 0) sum.add(weight, image.color[q], image.variance[q]);
+        sum.add(weight, image.color[q], image.variance[q]);
       });
       result.color[p] = sum.color();
       result.variance[p] = sum.variance(correlation);

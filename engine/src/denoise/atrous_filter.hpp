@@ -1,9 +1,9 @@
 // The edge-avoiding a-trous wavelet filter of Dammertz et al. 2010 ("Edge-Avoiding A-Trous Wavelet Transform for fast
 // Global Illumination Filtering"), guided by what the first hit is and by the standard error of the pixels.
 //
-// Each of five levels averages 5 x 5 taps, 1, 2, 4, 8 and 16 pixels apart, by the weights of a cubic B-spline times what
-// four edge-stopping functions leave of them: of normals (Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering",
-// eq. 4), of the tangent planes, of albedo and coverage, and of color.
+// Each of five levels averages 5 x 5 taps, 1, 2, 4, 8 and 16 pixels apart, by the weights of a cubic B-spline times
+// what four edge-stopping functions leave of them: of normals (Schied et al. 2017, "Spatiotemporal Variance-Guided
+// Filtering", eq. 4), of the tangent planes, of albedo and coverage, and of color.
 //
 // Colors p and q may differ by what their noise explains, exp(-d^2 / (2 k^2 J)) with J = v_p + min(v_p, v_q), the joint
 // variance of Rousselle et al. 2012 ("Adaptive Rendering with Non-Local Means Filtering", eq. 4), in which a bright
