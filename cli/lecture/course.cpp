@@ -80,17 +80,8 @@ std::vector<CourseComparison> facets() {
        "(below).",
        {{"GGX", "metal everywhere", course("ndf", 10)},
         {"Beckmann", "metal everywhere", course("ndf", 10, {{"ndf", "beckmann"}})},
-        {"Blinn", "metal everywhere", course("ndf", 10, {{"ndf", "blinn"}})}}},
+        {"Blinn", "metal everywhere", course("ndf", 10, {{"ndf", "blinn-phong"}})}}},
   };
-}
-
-bool available(const CourseComparison& comparison) {
-  try {
-    for (const CourseFigure& figure : comparison.figures) (void)figure.configuration.settings();
-    return true;
-  } catch (const UsageError&) {
-    return false;
-  }
 }
 
 } // namespace
@@ -98,9 +89,7 @@ bool available(const CourseComparison& comparison) {
 std::vector<CourseComparison> courseComparisons() {
   std::vector<CourseComparison> list = directLight();
   for (auto* part : {&paths, &facets}) {
-    for (CourseComparison& comparison : part()) {
-      if (available(comparison)) list.push_back(std::move(comparison));
-    }
+    for (CourseComparison& comparison : part()) list.push_back(std::move(comparison));
   }
   return list;
 }
