@@ -15,8 +15,6 @@ constexpr std::array<float, 5> kSpline = {1.0f / 16, 4.0f / 16, 6.0f / 16, 4.0f 
 /// Sum of the squared weights of one level in both directions.
 constexpr double kSquaredWeights = (70.0 / 256) * (70.0 / 256);
 
-// Standard deviations of the color that may differ by noise, the k of the header.
-constexpr float kColorTolerance = 1.4142136f;
 constexpr int kNormalSquarings = 7; // the cosine to the power of 128: Schied et al. 2017, section 4.4
 constexpr float kAlbedoTolerance = 0.1f;
 constexpr float kCoverageTolerance = 0.1f;
@@ -72,13 +70,14 @@ float normalWeight(const Guide& p, const Guide& q) {
 
 float guideWeight(const Guide& p, const Guide& q) { return normalWeight(p, q) * std::exp(-guideDistance(p, q)); }
 
+/// Half the squared difference over twice the joint variance, of the channel where it is most.
 float colorDistance(const glm::vec3& p, const glm::vec3& pVariance, const glm::vec3& q, const glm::vec3& qVariance) {
   float most = 0;
   for (int c = 0; c < 3; ++c) {
     const float difference = p[c] - q[c];
     const float rounding = kRounding * (std::abs(p[c]) + std::abs(q[c])) + 1e-18f;
     const float joint = pVariance[c] + std::min(pVariance[c], qVariance[c]) + rounding * rounding;
-    most = std::max(most, difference * difference / (2 * kColorTolerance * kColorTolerance * joint));
+    most = std::max(most, difference * difference / (4 * joint));
   }
   return most;
 }
