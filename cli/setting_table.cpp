@@ -162,6 +162,10 @@ std::vector<SettingEntry> makeTable() {
       choice(
           {"specialize", "on, off", "on", "on", "kernels without what the scene does not use", SettingKind::Execution},
           execution, &X::specialize, onOff),
+      choice({"denoiser", "none, atrous", "none", "atrous",
+              "a filter of the finished image that trades noise for bias, written as the layer denoised.{R,G,B}",
+              SettingKind::Layer},
+             &Settings::layers, &LayerSettings::denoiser, {{"none", Denoiser::None}, {"atrous", Denoiser::Atrous}}),
   };
 }
 

@@ -131,28 +131,21 @@ void forTaps(const FilterImage& image, glm::ivec2 pixel, int radius, int step, c
   }
 }
 
-/// A pixel's own variance, or the mean of 3 x 3 pixels of its surface where that is more: the error of one pixel is
-/// known to a quarter of itself only, and seems nil where eight replicates saw nothing. The largest of the neighbors
-/// does not count, so that one outlier is no excuse for those around it.
-std::vector<glm::vec3> cautiousVariance(const FilterImage& image, const std::vector<Guide>& guides, uint32_t threads) {
-  constexpr glm::vec3 kSum{1};
+/// The mean variance of 3 x 3 pixels of one surface: the error of one pixel is known to a quarter of itself only, and
+/// seems nil where eight replicates saw nothing.
+std::vector<glm::vec3> smoothedVariance(const FilterImage& image, const std::vector<Guide>& guides, uint32_t threads) {
   std::vector<glm::vec3> result(image.variance.size());
   forRows(image.height, threads, [&](uint32_t y) {
     for (uint32_t x = 0; x < image.width; ++x) {
       const size_t p = size_t{y} * image.width + x;
-      float weights = 0, largestWeight = 0;
-      glm::vec3 sum{0}, largest{0};
+      float weights = 0;
+      glm::vec3 sum{0};
       forTaps(image, {x, y}, 1, 1, [&](size_t q, float kernel) {
-        const glm::vec3& variance = image.variance[q];
         const float weight = q == p ? kernel : kernel * guideWeight(guides[p], guides[q]);
         weights += weight;
-        sum += weight * variance;
-        if (q == p || glm::dot(weight * variance, kSum) <= glm::dot(largestWeight * largest, kSum)) return;
-        largest = variance;
-        largestWeight = weight;
+        sum += weight * image.variance[q];
       });
-      const glm::vec3 mean = (sum - largestWeight * largest) / (weights - largestWeight);
-      result[p] = glm::max(image.variance[p], mean);
+      result[p] = sum / weights;
     }
   });
   return result;
@@ -184,7 +177,7 @@ FilterImage filterLevel(const FilterImage& image, const std::vector<Guide>& guid
 } // namespace
 
 FilterImage atrousFilter(FilterImage image, const std::vector<Guide>& guides, uint32_t threads) {
-  image.variance = cautiousVariance(image, guides, threads);
+  image.variance = smoothedVariance(image, guides, threads);
   for (uint32_t level = 0; level < kLevels; ++level) image = filterLevel(image, guides, level, threads);
   return image;
 }

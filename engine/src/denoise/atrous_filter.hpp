@@ -7,8 +7,8 @@
 //
 // Colors p and q may differ by what their noise explains: exp(-d^2 / (2 * 2 J)) with J = v_p + min(v_p, v_q), the joint
 // variance of Rousselle et al. 2012 ("Adaptive Rendering with Non-Local Means Filtering", eq. 4), in which a bright
-// outlier q does not excuse itself. So a pixel moves by less than its 95% interval, save one that stands out alone by a
-// few errors, and a converged image is left alone. Against J itself less noise would go: measured with scenes of
+// outlier q does not excuse itself. So a pixel moves by less than its standard error, save one that stands out alone by
+// a few errors, and a converged image is left alone. Against J itself less noise would go: measured with scenes of
 // assets/ at 16 samples, 1.2 to 1.3 times the squared error.
 //
 // Variance is carried from level to level. Taps of a later level share pixels: taken as independent, the last level
