@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -152,19 +151,13 @@ StopRule sharedOut(StopRule rule, const AdaptivePlan& plan) {
   return rule;
 }
 
-/// What settings took from the image, and what they left.
-void accountForBias(const Image& image, RenderReport& report) {
-  report.kept = colorMean(image, "");
-  report.clamped = colorMean(image, "clamped.");
-  report.denoised = colorMean(image, "denoised.");
-  if (image.find("beyond.R") != nullptr) report.beyond = colorMean(image, "beyond.");
-}
-
-/// A PNG shows the denoised layer where there is one, as it was asked for.
+/// What a PNG shows: the denoised layer where there is one, as it was asked for.
 /// Alpha is coverage by geometry; where an environment shows, the picture is opaque all the same.
 Image pictureOf(const Image& image, bool denoised, bool environment) {
-  Image picture = denoised ? denoisedImage(image) : image;
-  if (environment) std::erase_if(picture.channels, [](const Channel& channel) { return channel.name == "A"; });
+  Image picture{.width = image.width, .height = image.height};
+  for (const char* color : {"R", "G", "B"})
+    picture.channels.push_back({color, image.find((denoised ? "denoised." : "") + std::string(color))->values});
+  if (!environment) picture.channels.push_back(*image.find("A"));
   return picture;
 }
 
@@ -286,7 +279,7 @@ int runRender(const RenderOptions& options) {
     addDenoised(image);
     report.seconds.denoise = watch.lap();
   }
-  accountForBias(image, report);
+  report.bias = biasAccount(image);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);
   if (options.sampleRange) storeSums(image, film.sums()); // a shard, to be merged

@@ -1,7 +1,5 @@
 #include "rendering/render_report.hpp"
 
-#include <numeric>
-
 #include <fmt/format.h>
 
 #include "isophote/version.hpp"
@@ -100,16 +98,7 @@ Json figureOfMerit(const RenderResult& result) {
 /// The settings that bias the image, and the samples that were lost.
 Json ledgerJson(const RenderReport& report) {
   Json ledger = biasJson(report.settings);
-  const auto sum = [](const glm::dvec3& color) { return color.r + color.g + color.b; };
-  const double whole = sum(report.kept) + sum(report.clamped) + sum(report.beyond.value_or(glm::dvec3(0)));
-  const auto account = [&](Json& entry, const glm::dvec3& removed, const char* layer) {
-    entry["removed"] = {removed.r, removed.g, removed.b};
-    entry["removed_share"] = whole > 0 ? sum(removed) / whole : 0.0;
-    entry["layer"] = layer;
-  };
-  if (ledger.contains("clamp")) account(ledger["clamp"], report.clamped, "clamped.{R,G,B}");
-  if (ledger.contains("max-depth") && report.beyond) account(ledger["max-depth"], *report.beyond, "beyond.{R,G,B}");
-  if (ledger.contains("denoiser")) ledger["denoiser"].update(denoisedJson(report.kept, report.denoised));
+  enterAccount(report.bias, ledger);
   const StatusCounters& status = report.statistics.status;
   const uint64_t samples = report.statistics.primaryRays;
   const uint64_t lost = status.nonFinite + status.negative + status.clipped;
@@ -152,12 +141,6 @@ Json requestJson(const RenderReport& report) {
   if (report.variant) settings["variant"] = *report.variant;
   if (report.adaptive) settings["adaptive"] = true;
   return settings;
-}
-
-double channelMean(const Image& image, const std::string& name) {
-  const Channel* channel = image.find(name);
-  if (channel == nullptr || channel->values.empty()) return 0;
-  return std::accumulate(channel->values.begin(), channel->values.end(), 0.0) / double(channel->values.size());
 }
 
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -241,18 +224,6 @@ std::string sampleIdentity(const RenderReport& report, uint32_t firstSample) {
                    {"first_sample", firstSample}};
   identity.update(requestJson(report));
   return dump(identity);
-}
-
-glm::dvec3 colorMean(const Image& image, const std::string& prefix) {
-  return {channelMean(image, prefix + "R"), channelMean(image, prefix + "G"), channelMean(image, prefix + "B")};
-}
-
-Json denoisedJson(const glm::dvec3& image, const glm::dvec3& layer) {
-  const glm::dvec3 removed = image - layer;
-  const double whole = image.r + image.g + image.b;
-  return {{"removed", {removed.r, removed.g, removed.b}},
-          {"removed_share", whole > 0 ? (removed.r + removed.g + removed.b) / whole : 0.0},
-          {"layer", "denoised.{R,G,B}"}};
 }
 
 std::map<std::string, std::string> imageAttributes(const RenderReport& report) {

@@ -10,6 +10,7 @@
 #include "input/scene_source.hpp"
 #include "isophote/device.hpp"
 #include "isophote/path_tracer.hpp"
+#include "rendering/bias_ledger.hpp"
 #include "rendering/stop_rule.hpp"
 #include "setting_table.hpp"
 
@@ -45,10 +46,7 @@ struct RenderReport {
   uint32_t samplesPerPixel = 0; ///< that every pixel has at least
   uint64_t filmBytes = 0;
   PhaseSeconds seconds;
-  glm::dvec3 clamped{0};            ///< mean radiance that the clamp setting removed, R, G, B
-  std::optional<glm::dvec3> beyond; ///< that the depth limit left out, where it was measured
-  glm::dvec3 kept{0};               ///< mean radiance of the image
-  glm::dvec3 denoised{0};           ///< of its denoised layer, where there is one
+  BiasAccount bias;
 };
 
 /// Schema 1.
@@ -59,12 +57,6 @@ struct RenderReport {
 
 /// All that the bits of a pixel's samples depend on, and the first of them: JSON of one object.
 [[nodiscard]] std::string sampleIdentity(const RenderReport& report, uint32_t firstSample);
-
-/// The mean of three channels: R, G, B after `prefix`; 0 where the image lacks them.
-[[nodiscard]] glm::dvec3 colorMean(const Image& image, const std::string& prefix);
-
-/// Of the ledger: what the denoised layer lacks, or has too much, of the image's mean radiance.
-[[nodiscard]] nlohmann::ordered_json denoisedJson(const glm::dvec3& image, const glm::dvec3& layer);
 
 /// The value of the attribute isophote.error.
 [[nodiscard]] std::string errorText(const ErrorEstimate& error);
