@@ -54,6 +54,9 @@ TEST_F(CliMerge, DenoisesTheWholeAsRenderDoes) {
   EXPECT_TRUE(test::bitIdentical(readExr(file("merged.exr")), readExr(file("whole.exr"))));
   EXPECT_EQ(readExr(file("merged.exr")).attributes.at("isophote.bias"),
             readExr(file("whole.exr")).attributes.at("isophote.bias"));
+  const auto compared = run({"compare", file("merged.exr"), file("whole.exr"), "--denoised", "--json"});
+  EXPECT_EQ(compared.exitCode, 0) << compared.err;
+  EXPECT_EQ(compared.out.find("verdict"), std::string::npos); // the layer has no error bars
   const auto shard = run({"render", scene_, "-o", file("c.exr"), "--sample-range", "0:8", "--denoise"});
   EXPECT_EQ(shard.exitCode, 2) << shard.err;
 }
