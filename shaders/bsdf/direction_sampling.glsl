@@ -18,11 +18,18 @@ const uint kDirectionsNdf = 3u;
 const uint kDirectionsVisibleNormals = 4u;
 const uint kDirectionsMixture = 5u; // of the four before, a quarter each
 
+// Normals of Beckmann's and of Blinn's facets next to never lie far aside, where the diffuse lobe, layers and
+// scattering between facets still send light; GGX's do.
+bool drawsNarrowly() {
+  return kNdf != kNdfGgx && (kDirectionSampling == kDirectionsNdf || kDirectionSampling == kDirectionsVisibleNormals);
+}
+
 /// Returns the share of directions that are drawn lobe by lobe all the same: half where a technique alone cannot draw
-/// all that the surface scatters, which is its delta lobes and what lies behind it.
+/// all that the surface scatters, which is its delta lobes, what lies behind it, and what its facets are too narrow
+/// for.
 float lobesShare(const SurfaceBsdf bsdf) {
   const bool coated = kHasClearcoat && bsdf.coat.amount > 0.0 && coatIsMirror(bsdf.coat);
-  const bool needsLobes = isMirror(bsdf.base) || coated || transmits(bsdf);
+  const bool needsLobes = drawsNarrowly() || isMirror(bsdf.base) || coated || transmits(bsdf);
   return needsLobes ? 0.5 : 0.0;
 }
 

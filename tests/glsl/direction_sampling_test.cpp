@@ -204,6 +204,25 @@ TEST(DirectionSampling, SamplesOfOtherFacetsFollowTheDensity) {
   }
 }
 
+// Narrow facets reach the diffuse lobe's directions by their lobes alone: known to 2%.
+TEST(DirectionSampling, NormalsOfOtherFacetsMissNothing) {
+  for (const Ndf ndf : {Ndf::Beckmann, Ndf::BlinnPhong}) {
+    DirectionCase plastic = material(0, 0.04f);
+    plastic.wo = test::directionOf(0.5, 0.6);
+    test::Moments reference;
+    for (const auto technique : {DirectionSampling::Lobes, DirectionSampling::Ndf, DirectionSampling::VisibleNormals}) {
+      SCOPED_TRACE(testing::Message() << "ndf " << uint32_t(ndf) << ", technique " << uint32_t(technique));
+      test::Moments moments;
+      for (const DirectionResult& result : probe(draws(plastic, 50000, 7 + uint32_t(technique)), technique, ndf)) {
+        moments.add((result.flags & gpu::kDirectionValid) != 0 ? double(result.weight.y) : 0);
+      }
+      EXPECT_LT(moments.standardError(), 0.01 * moments.mean());
+      if (technique == DirectionSampling::Lobes) reference = moments;
+      EXPECT_GT(test::welchTest(moments, reference), 1e-4) << moments.mean() << " is not " << reference.mean();
+    }
+  }
+}
+
 // The reflected share of uniform light, by every technique: the same expectation (significance 1e-3 over the family),
 // known to 2% or better.
 TEST(DirectionSampling, EveryTechniqueEstimatesTheSameAlbedoSlow) {
