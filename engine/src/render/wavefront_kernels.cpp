@@ -49,6 +49,13 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   return constants;
 }
 
+gpu::KernelSource traversalKernel(const char* name, Backend backend) {
+  if (backend == Backend::Compute) return isophote_kernels::kernelSource(name);
+  gpu::KernelSource source = isophote_kernels::kernelSource(std::string(name) + "_ray_query");
+  source.name = name; // statistics know it by what it does
+  return source;
+}
+
 std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
   std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
   if (shadeEscaped) kernels.push_back(&*shadeEscaped);
@@ -64,12 +71,14 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                                       const EstimatorSettings& settings, uint32_t workgroupSize,
                                       VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
   const auto constants = kernelConstants(features, settings, workgroupSize, needs);
-  const auto make = [&](const char* name) {
-    return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
+  const auto makeFrom = [&](const gpu::KernelSource& source) {
+    return gpu::Kernel(device, source, constants, textureLayout, sizeof(gpu::KernelArgs));
   };
+  const auto make = [&](const char* name) { return makeFrom(isophote_kernels::kernelSource(name)); };
+  const auto makeTraversal = [&](const char* name) { return makeFrom(traversalKernel(name, needs.backend)); };
   WavefrontKernels kernels{.prepare = make("prepare"),
                            .regenerate = make("regenerate"),
-                           .intersectClosest = make("intersect_closest"),
+                           .intersectClosest = makeTraversal("intersect_closest"),
                            .shadeEscaped = std::nullopt,
                            .shadeMedium = std::nullopt,
                            .shadeSurface = make("shade_surface"),
@@ -78,8 +87,8 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                            .findCameraMedia = std::nullopt};
   if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
   if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
-  if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
-  if (samplesLights(features, settings, needs.depthLedger)) kernels.intersectShadow = make("intersect_shadow");
+  if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = makeTraversal("find_camera_media");
+  if (samplesLights(features, settings, needs.depthLedger)) kernels.intersectShadow = makeTraversal("intersect_shadow");
   return kernels;
 }
 

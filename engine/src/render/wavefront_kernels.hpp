@@ -14,6 +14,7 @@ namespace isophote {
 struct KernelNeeds {
   bool depthLedger = false; ///< some paths are followed beyond the depth limit
   bool pixelList = false;   ///< some pixels are sampled, not all
+  Backend backend = Backend::Compute; ///< the scene's
   bool operator==(const KernelNeeds&) const = default;
 };
 
@@ -36,6 +37,9 @@ struct WavefrontKernels {
 [[nodiscard]] std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features,
                                                              const EstimatorSettings& settings, uint32_t workgroupSize,
                                                              const KernelNeeds& needs = {});
+
+/// The product's kernel `name` for scenes of a backend.
+[[nodiscard]] gpu::KernelSource traversalKernel(const char* name, Backend backend);
 
 /// @param textureLayout  of the scene's texture array, null where it has none
 [[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
