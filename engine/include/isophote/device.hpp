@@ -49,7 +49,7 @@ private:
 };
 
 struct DeviceOptions {
-  std::string selector; ///< name part, index, or "cpu"; empty: the fastest kind present
+  std::string selector;  ///< name part, index, or "cpu"; empty: the fastest kind present
   bool present = false;  ///< enable VK_KHR_swapchain
   bool rayQuery = false; ///< enable VK_KHR_ray_query, for scenes of Backend::RayQuery; devices without it are refused
 };

@@ -31,12 +31,12 @@ void requireAtMost(uint64_t count, uint64_t limit, const Device::Impl& device, c
 /// Orders builds and copies of structures against one another and against the kernels that follow.
 void recordBuildBarrier(VkCommandBuffer commands) {
   constexpr VkPipelineStageFlags2 kBuild = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
-  const VkMemoryBarrier2 barrier{
-      .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-      .srcStageMask = kBuild | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-      .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-      .dstStageMask = kBuild | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-      .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                 .srcStageMask = kBuild | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                 .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                 .dstStageMask = kBuild | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT |
+                                                 VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                 .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
   const VkDependencyInfo dependency{
       .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
   vkCmdPipelineBarrier2(commands, &dependency);

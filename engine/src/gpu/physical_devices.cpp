@@ -136,7 +136,7 @@ PhysicalDevice describe(VkPhysicalDevice device, uint32_t index, const DeviceNee
     result.queueFamily = *family;
   } else {
     missing.emplace_back(needs.present ? "a queue that draws, computes and has timestamps"
-                                 : "a queue that computes and has timestamps");
+                                       : "a queue that computes and has timestamps");
   }
   if (needs.present && !hasDeviceExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
     missing.emplace_back("VK_KHR_swapchain");

@@ -12,8 +12,8 @@ namespace isophote {
 
 /// What a render asks of its kernels beside features and settings.
 struct KernelNeeds {
-  bool depthLedger = false; ///< some paths are followed beyond the depth limit
-  bool pixelList = false;   ///< some pixels are sampled, not all
+  bool depthLedger = false;           ///< some paths are followed beyond the depth limit
+  bool pixelList = false;             ///< some pixels are sampled, not all
   Backend backend = Backend::Compute; ///< the scene's
   bool operator==(const KernelNeeds&) const = default;
 };

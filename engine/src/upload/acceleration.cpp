@@ -34,8 +34,7 @@ struct PlacedMesh {
 
 } // namespace
 
-gpu::AccelerationStructures buildAcceleration(const Device& device, const PackedScene& packed,
-                                              gpu::Address triangles) {
+gpu::AccelerationStructures buildAcceleration(const Device& device, const PackedScene& packed, gpu::Address triangles) {
   std::vector<gpu::BottomLevel> bottomLevels;
   std::vector<PlacedMesh> meshes(packed.meshTriangles.size());
   for (uint32_t i = 0; i < packed.triangleRanges.size(); ++i) {

@@ -16,9 +16,9 @@
 namespace isophote {
 
 struct GpuScene::Impl {
-  std::vector<gpu::Buffer> buffers; ///< those that exist; `view` holds their addresses
+  std::vector<gpu::Buffer> buffers;         ///< those that exist; `view` holds their addresses
   gpu::AccelerationStructures acceleration; ///< of Backend::RayQuery
-  gpu::Buffer view;                 ///< one gpu::SceneView, without the tables of scattering
+  gpu::Buffer view;                         ///< one gpu::SceneView, without the tables of scattering
   gpu::SceneView viewContents{};
   TableNeeds tables; ///< which a renderer computes for its settings
   gpu::TextureArray textures;
