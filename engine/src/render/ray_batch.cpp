@@ -25,7 +25,7 @@ template <class T> std::vector<T> download(const Device& device, const gpu::Buff
 gpu::Kernel makeKernel(const Device& device, const GpuScene& scene, RayQuestion question,
                        const gpu::KernelSource* source) {
   const char* name = question == RayQuestion::Occluded ? "intersect_shadow" : "intersect_closest";
-  return {device, source != nullptr ? *source : traversalKernel(name, scene.statistics().backend),
+  return {device, source != nullptr ? *source : kernelOf(name, scene.statistics().backend),
           kernelConstants(scene.features(), {}, kWorkgroup), scene.impl().textures.layout(), sizeof(gpu::KernelArgs)};
 }
 

@@ -4,8 +4,14 @@
 #include "render/setting_ids.hpp"
 #include "shared/path_types.h"
 
+#include <algorithm>
+#include <string>
+
 namespace isophote {
 namespace {
+
+// Those that trace rays: they are compiled once for each backend (RAY_QUERY in engine/CMakeLists.txt).
+constexpr std::string_view kTracingKernels[] = {"intersect_closest", "intersect_shadow", "find_camera_media"};
 
 // Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
 bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger) {
@@ -49,10 +55,12 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   return constants;
 }
 
-gpu::KernelSource traversalKernel(const char* name, Backend backend) {
-  if (backend == Backend::Compute) return isophote_kernels::kernelSource(name);
-  gpu::KernelSource source = isophote_kernels::kernelSource(std::string(name) + "_ray_query");
-  source.name = name; // statistics know it by what it does
+gpu::KernelSource kernelOf(std::string_view name, Backend backend) {
+  gpu::KernelSource source = isophote_kernels::kernelSource(name);
+  const bool traces =
+      std::find(std::begin(kTracingKernels), std::end(kTracingKernels), name) != std::end(kTracingKernels);
+  if (backend == Backend::RayQuery && traces)
+    source.spirv = isophote_kernels::kernelSource(std::string(name) + "_ray_query").spirv;
   return source;
 }
 
@@ -71,14 +79,12 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                                       const EstimatorSettings& settings, uint32_t workgroupSize,
                                       VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
   const auto constants = kernelConstants(features, settings, workgroupSize, needs);
-  const auto makeFrom = [&](const gpu::KernelSource& source) {
-    return gpu::Kernel(device, source, constants, textureLayout, sizeof(gpu::KernelArgs));
+  const auto make = [&](const char* name) {
+    return gpu::Kernel(device, kernelOf(name, needs.backend), constants, textureLayout, sizeof(gpu::KernelArgs));
   };
-  const auto make = [&](const char* name) { return makeFrom(isophote_kernels::kernelSource(name)); };
-  const auto makeTraversal = [&](const char* name) { return makeFrom(traversalKernel(name, needs.backend)); };
   WavefrontKernels kernels{.prepare = make("prepare"),
                            .regenerate = make("regenerate"),
-                           .intersectClosest = makeTraversal("intersect_closest"),
+                           .intersectClosest = make("intersect_closest"),
                            .shadeEscaped = std::nullopt,
                            .shadeMedium = std::nullopt,
                            .shadeSurface = make("shade_surface"),
@@ -87,8 +93,8 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                            .findCameraMedia = std::nullopt};
   if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
   if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
-  if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = makeTraversal("find_camera_media");
-  if (samplesLights(features, settings, needs.depthLedger)) kernels.intersectShadow = makeTraversal("intersect_shadow");
+  if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
+  if (samplesLights(features, settings, needs.depthLedger)) kernels.intersectShadow = make("intersect_shadow");
   return kernels;
 }
 

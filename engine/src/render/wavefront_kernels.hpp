@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "gpu/kernel.hpp"
@@ -38,8 +39,8 @@ struct WavefrontKernels {
                                                              const EstimatorSettings& settings, uint32_t workgroupSize,
                                                              const KernelNeeds& needs = {});
 
-/// The product's kernel `name` for scenes of a backend.
-[[nodiscard]] gpu::KernelSource traversalKernel(const char* name, Backend backend);
+/// The product's kernel `name` for scenes of a backend; statistics know it by the same name in both.
+[[nodiscard]] gpu::KernelSource kernelOf(std::string_view name, Backend backend);
 
 /// @param textureLayout  of the scene's texture array, null where it has none
 [[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
