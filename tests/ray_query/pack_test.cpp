@@ -26,9 +26,8 @@ TEST(RayQueryPacking, RangesHoldEveryTriangleOfTheirMeshOnceOpaqueOnesFirst) {
     ASSERT_GE(next, packed.meshTriangles[range.mesh]);
     next += range.count;
     ASSERT_LE(next, packed.meshTriangles[range.mesh + 1]);
-    if (i > 0)
-      ASSERT_TRUE(packed.triangleRanges[i - 1].mesh < range.mesh ||
-                  (packed.triangleRanges[i - 1].opaque && !range.opaque));
+    const TriangleRange* before = i > 0 ? &packed.triangleRanges[i - 1] : nullptr;
+    ASSERT_TRUE(!before || before->mesh < range.mesh || (before->opaque && !range.opaque));
     for (uint32_t t = packed.rangeStarts[i]; t < next; ++t)
       ASSERT_EQ((packed.triangles[t].flags & gpu::kTriangleHasAlpha) == 0, range.opaque);
     if (!range.opaque) withAlpha += range.count;
