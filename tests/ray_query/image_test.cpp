@@ -41,17 +41,16 @@ TEST_F(RayQueryImage, OfOneInstanceIsThatOfTheOwnBvhToTheBit) {
   const Image own = render(device(), scene, test::cornellCamera(), Backend::Compute, 16, 1);
   const Image query = render(device(), scene, test::cornellCamera(), Backend::RayQuery, 16, 1);
   EXPECT_LE(differing(own, query), 3u * kSide * kSide / 100);
-  EXPECT_TRUE(test::sameImage(test::measured(own), test::measured(query), {.powerFloor = 0.1}));
-}
-
-TEST_F(RayQueryImage, OfTexturesMasksAndBlendsIsTheSameToTheBit) {
-  const Scene scene = test::texturedStillLife();
-  const Image own = render(device(), scene, test::texturedStillLifeCamera(), Backend::Compute, 16, 1);
-  const Image query = render(device(), scene, test::texturedStillLifeCamera(), Backend::RayQuery, 16, 1);
-  EXPECT_LE(differing(own, query), 3u * kSide * kSide / 100);
 }
 
 // Other orders of instances and lights are other random numbers: Welch's tests of independent renders.
+TEST_F(RayQueryImage, OfTexturesMasksAndBlendsIsTheSameWithinNoise) {
+  const Scene scene = test::texturedStillLife();
+  const Image own = render(device(), scene, test::texturedStillLifeCamera(), Backend::Compute, 256, 1);
+  const Image query = render(device(), scene, test::texturedStillLifeCamera(), Backend::RayQuery, 256, 2);
+  EXPECT_TRUE(test::sameImage(test::measured(own), test::measured(query), {.powerFloor = 0.02}));
+}
+
 TEST_F(RayQueryImage, OfManyInstancesIsTheSameWithinNoise) {
   const Scene scene = test::instanceGrid();
   const Image own = render(device(), scene, test::instanceGridCamera(), Backend::Compute, 256, 1);
@@ -67,7 +66,7 @@ TEST_F(RayQueryImage, OfASphereLightHasItsClosedForm) {
 
 // A ray that slips out at an edge, or that meets the wall it has just left, would change the radiance of a closed room.
 TEST_F(RayQueryImage, OfAFurnaceLosesNothing) {
-  const Scene scene = test::boxFurnace(glm::vec3(0.1f), glm::vec3(0.9f));
-  const Image image = render(device(), scene, test::boxFurnaceCamera(), Backend::RayQuery, 64, 1);
-  EXPECT_TRUE(test::pixelMeanIs(image, "G", 1.0, 0.01));
+  const Scene scene = test::boxFurnace(glm::vec3(0.5f), glm::vec3(0.5f));
+  const Image image = render(device(), scene, test::boxFurnaceCamera(), Backend::RayQuery, 256, 1);
+  EXPECT_TRUE(test::pixelMeanIs(image, "G", 1.0));
 }
