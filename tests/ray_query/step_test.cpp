@@ -31,16 +31,18 @@ std::vector<StepResult> step(const Device& device, const Scene& scene, const std
 using RayQuerySteps = test::RayQueryTest;
 
 TEST_F(RayQuerySteps, ThatLeaveAPlaneDoNotMeetItAgain) {
+  // Planes turned any way, placed far away, stretched; and the floor y = 0, whose points have no error: rays leave it
+  // by so little that the device itself meets it again.
   std::mt19937 random(2);
-  for (uint32_t k = 0; k < 3; ++k) {
-    Scene scene = test::sceneOf({test::meshOf({{-9, -9, 3}, {9, -9, 3}, {9, 9, 3}, {-9, 9, 3}}, {0, 1, 2, 0, 2, 3})});
+  for (uint32_t k = 0; k < 4; ++k) {
+    Scene scene = test::sceneOf({test::meshOf({{-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9}}, {0, 1, 2, 0, 2, 3})});
     glm::dmat4& placement = scene.instances[0].worldFromObject;
-    placement = test::randomPlacement(random, 100);
+    if (k > 0) placement = test::randomPlacement(random, 20); // farther away the device counts from the scene's center
     std::vector<TraversalCase> rays;
-    const glm::dvec3 center(placement * glm::dvec4(0, 0, 3, 1));
+    const glm::dvec3 center(placement[3]);
     std::uniform_real_distribution<double> unit(-8, 8);
     for (uint32_t i = 0; i < 3000; ++i) {
-      const glm::dvec3 target(placement * glm::dvec4(unit(random), unit(random), 3, 1));
+      const glm::dvec3 target(placement * glm::dvec4(unit(random), 0, unit(random), 1));
       const glm::vec3 origin(center + 40.0 * glm::dvec3(test::randomDirection(random)));
       rays.push_back(
           {.origin = origin, .direction = glm::vec3(glm::normalize(target - glm::dvec3(origin))), .tMax = kUnbounded});
