@@ -45,7 +45,8 @@ RayBatch::RayBatch(const Device& device, const GpuScene& scene, const RayList& l
                    std::as_bytes(std::span(slots)));
   if (occluded) {
     std::vector<gpu::ShadowState> shadows;
-    for (const Ray& ray : list.rays) shadows.push_back({local(ray), ray.tMax, ray.direction, gpu::kInvalidIndex, glm::vec3(1)});
+    for (const Ray& ray : list.rays)
+      shadows.push_back({local(ray), ray.tMax, ray.direction, gpu::kInvalidIndex, glm::vec3(1)});
     upload(device, pool_.shadows, shadows);
   } else {
     std::vector<gpu::RayState> rays;
