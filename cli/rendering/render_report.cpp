@@ -99,15 +99,7 @@ Json figureOfMerit(const RenderResult& result) {
 /// The settings that bias the image, and the samples that were lost.
 Json ledgerJson(const RenderReport& report) {
   Json ledger = biasJson(report.settings);
-  const auto sum = [](const glm::dvec3& color) { return color.r + color.g + color.b; };
-  const double whole = sum(report.kept) + sum(report.clamped) + sum(report.beyond.value_or(glm::dvec3(0)));
-  const auto account = [&](Json& entry, const glm::dvec3& removed, const char* layer) {
-    entry["removed"] = {removed.r, removed.g, removed.b};
-    entry["removed_share"] = whole > 0 ? sum(removed) / whole : 0.0;
-    entry["layer"] = layer;
-  };
-  if (ledger.contains("clamp")) account(ledger["clamp"], report.clamped, "clamped.{R,G,B}");
-  if (ledger.contains("max-depth") && report.beyond) account(ledger["max-depth"], *report.beyond, "beyond.{R,G,B}");
+  enterAccount(report.bias, ledger);
   const StatusCounters& status = report.statistics.status;
   const uint64_t samples = report.statistics.primaryRays;
   const uint64_t lost = status.nonFinite + status.negative + status.clipped;
@@ -135,7 +127,7 @@ const char* outcomeName(Outcome outcome) {
 
 /// What was asked for: the estimator's settings, the image, the camera and the light around the scene.
 Json requestJson(const RenderReport& report) {
-  Json settings = settingsJson(report.settings, false);
+  Json settings = settingsJson(report.settings, SettingKind::Estimator);
   settings["image"] = sizeJson(report);
   settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
   if (!report.view.framing) settings["camera_index"] = report.view.cameraIndex;
@@ -193,6 +185,7 @@ Json statsJson(const RenderReport& report) {
             {"upload", report.seconds.upload},
             {"compile", report.seconds.compile},
             {"render", seconds},
+            {"denoise", report.seconds.denoise},
             {"write", report.seconds.write},
             {"first_pixel", render.firstPixelSeconds}}},
           {"memory",
@@ -217,8 +210,8 @@ Json statsJson(const RenderReport& report) {
           {"outcome", outcomeName(report.result.outcome)},
           {"image", sizeJson(report)},
           {"sample_range", {report.samples.first, report.samples.last}},
-          {"settings", settingsJson(report.settings, false)},
-          {"execution", settingsJson(report.settings, true)},
+          {"settings", settingsJson(report.settings, SettingKind::Estimator)},
+          {"execution", settingsJson(report.settings, SettingKind::Execution)},
           {"path_pool_size", render.pathPoolSize},
           {"workgroup_size", render.workgroupSize},
           {"buffers", buffersJson(report)},
@@ -238,10 +231,13 @@ std::string sampleIdentity(const RenderReport& report, uint32_t firstSample) {
 }
 
 std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
+  Json request = requestJson(report);
+  if (report.settings.layers.denoiser != Denoiser::None)
+    request.update(settingsJson(report.settings, SettingKind::Layer));
   return {{"isophote.version", kVersion},
           {"isophote.scene", report.scene},
           {"isophote.sceneHash", report.sceneHash},
-          {"isophote.settings", dump(requestJson(report))},
+          {"isophote.settings", dump(request)},
           {"isophote.device", fmt::format("{}, {}", report.device.name, report.device.driver)},
           {"isophote.features", dump(report.features.names())},
           {"isophote.seed", std::to_string(report.settings.estimator.seed)},
