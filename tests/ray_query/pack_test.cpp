@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "glsl/traversal_scene.hpp"
 #include "isophote/error.hpp"
 #include "isophote/gpu_scene.hpp"
 #include "ray_query/ray_query_device.hpp"
 #include "support/gpu_device.hpp"
 #include "support/scenes.hpp"
 #include "upload/pack_scene.hpp"
+#include "upload/place_order.hpp"
 
 using namespace isophote;
 
@@ -36,6 +38,31 @@ TEST(RayQueryPacking, RangesHoldEveryTriangleOfTheirMeshOnceOpaqueOnesFirst) {
   EXPECT_GT(withAlpha, 0u);
   EXPECT_LT(withAlpha, packed.triangles.size());
   EXPECT_TRUE(packScene(test::texturedStillLife()).triangleRanges.empty());
+}
+
+TEST(RayQueryPacking, SortingByPlaceKeepsEveryTriangleAndBringsNeighborsTogether) {
+  std::vector<gpu::BvhTriangle> triangles;
+  const std::vector<glm::vec3> soup = test::triangleSoup(2000, 0.01f, 21);
+  for (uint32_t i = 0; i < 2000; ++i) triangles.push_back({soup[3 * i], i, soup[3 * i + 1], 0, soup[3 * i + 2], 0});
+  const auto length = [&] { // of the way from each to the next
+    double sum = 0;
+    for (size_t i = 1; i < triangles.size(); ++i) sum += glm::distance(triangles[i - 1].v0, triangles[i].v0);
+    return sum;
+  };
+  const double before = length();
+  sortByPlace(triangles);
+  EXPECT_LT(length(), 0.2 * before);
+  std::vector<bool> seen(triangles.size());
+  for (const gpu::BvhTriangle& triangle : triangles) {
+    ASSERT_EQ(triangle.v0, soup[3 * triangle.primitiveIndex]);
+    ASSERT_EQ(triangle.v2, soup[3 * triangle.primitiveIndex + 2]);
+    seen[triangle.primitiveIndex] = true;
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), true), 2000);
+  sortByPlace({triangles.data(), 0});
+  std::vector<gpu::BvhTriangle> flat(3, triangles[0]); // of no extent but the triangle's own
+  sortByPlace(flat);
+  EXPECT_EQ(flat[2].v1, triangles[0].v1);
 }
 
 TEST_F(RayQueryScene, HasNoNodesAndCountsItsBytes) {

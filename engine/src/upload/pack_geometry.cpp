@@ -5,6 +5,7 @@
 #include "upload/pack_bvh.hpp"
 #include "upload/pack_instances.hpp"
 #include "upload/pack_texels.hpp"
+#include "upload/place_order.hpp"
 
 #include <algorithm>
 #include <map>
@@ -120,7 +121,7 @@ private:
     for (const uint32_t item : bvh.order) packed_.triangles.push_back(triangles[item]);
   }
 
-  // Opaque triangles first, so that the device need not ask about them.
+  // Opaque triangles first, so that the device need not ask about them; each range in an order that builders like.
   void listRanges(std::vector<gpu::BvhTriangle>& triangles) {
     const auto isOpaque = [](const gpu::BvhTriangle& triangle) {
       return (triangle.flags & gpu::kTriangleHasAlpha) == 0;
@@ -128,6 +129,8 @@ private:
     const auto first = static_cast<uint32_t>(packed_.triangles.size());
     const auto mesh = static_cast<uint32_t>(packed_.meshTriangles.size() - 1);
     const auto firstWithAlpha = std::stable_partition(triangles.begin(), triangles.end(), isOpaque);
+    sortByPlace({triangles.begin(), firstWithAlpha});
+    sortByPlace({firstWithAlpha, triangles.end()});
     const auto opaque = static_cast<uint32_t>(firstWithAlpha - triangles.begin());
     const auto others = static_cast<uint32_t>(triangles.end() - firstWithAlpha);
     const auto add = [&](uint32_t start, uint32_t count, bool withoutAlpha) {
