@@ -1,4 +1,4 @@
-// Rays per second of the intersection kernels, side by side with Embree and with kernels of another build.
+// Rays per second of the intersection kernels, side by side with Embree, ray query, and kernels of another build.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,7 +16,7 @@
 #ifdef ISOPHOTE_HAS_EMBREE
 #include "embree_tracer.hpp"
 #endif
-#include "cli/scene_source.hpp"
+#include "cli/input/scene_source.hpp"
 #include "isophote/device.hpp"
 #include "isophote/error.hpp"
 #include "isophote/gpu_scene.hpp"
@@ -42,6 +42,7 @@ struct Options {
   uint32_t repetitions = 11;
   std::string saveRays;
   std::string against;
+  bool rayQuery = false;
 };
 
 // Embree's edges are not watertight and its arithmetic is another: so many rays may meet something else.
@@ -91,6 +92,31 @@ std::vector<uint32_t> readSpirv(const std::filesystem::path& path) {
   return words;
 }
 
+/// A scene as a backend numbers it.
+struct Numbered {
+  const RayBatch& batch;
+  const WorldTriangles& triangles;
+};
+
+/// Rays that the two answer otherwise, but for surfaces at the same distance.
+uint64_t mismatches(const RayList& list, const Numbered& a, const Numbered& b) {
+  const std::vector<bool> metA = a.batch.met(), metB = b.batch.met();
+  uint64_t count = 0;
+  for (size_t i = 0; i < metA.size(); ++i) count += metA[i] != metB[i];
+  if (list.question == RayQuestion::Occluded) return count;
+  const std::vector<gpu::HitState> hitsA = a.batch.hits(), hitsB = b.batch.hits();
+  const auto distance = [&](const Numbered& side, const gpu::HitState& hit, const Ray& ray) {
+    const glm::vec3* corners = &side.triangles.corners[3 * size_t{side.triangles.number(hit.instance, hit.triangle)}];
+    return planeDistance({corners[0], corners[1], corners[2]}, ray.origin, ray.direction);
+  };
+  for (size_t i = 0; i < metA.size(); ++i) {
+    if (!metA[i] || !metB[i]) continue;
+    const double t = distance(a, hitsA[i], list.rays[i]);
+    count += !(std::abs(t - distance(b, hitsB[i], list.rays[i])) <= 1e-4 * std::max(1.0, std::abs(t)));
+  }
+  return count;
+}
+
 #ifdef ISOPHOTE_HAS_EMBREE
 /// Rays for which the two disagree about what they meet, other than between surfaces at the same distance.
 uint64_t mismatches(const RayBatch& batch, const RayList& list, const std::vector<EmbreeHit>& other,
@@ -127,12 +153,18 @@ void run(const Options& options) {
   for (Material& material : asset.materials) material.alphaMode = AlphaMode::Opaque;
   const cli::View view = cli::chooseView(asset, cli::CameraOptions{}, options.width, options.height);
   const VulkanInstance instance;
-  const Device device(instance, {.selector = options.device});
+  const Device device(instance, {.selector = options.device, .rayQuery = options.rayQuery});
   const GpuScene scene(device, asset);
   const auto recorded = recordRays(device, scene, view.camera, options.width, options.height, options.bounces);
   const std::string stem = std::filesystem::path(options.scene).stem().string();
+  const WorldTriangles triangles = worldTriangles(asset, Backend::Compute);
+  std::optional<GpuScene> queryScene;
+  WorldTriangles queryTriangles;
+  if (options.rayQuery) {
+    queryScene.emplace(device, asset, Backend::RayQuery);
+    queryTriangles = worldTriangles(asset, Backend::RayQuery);
+  }
 #ifdef ISOPHOTE_HAS_EMBREE
-  const WorldTriangles triangles = worldTriangles(asset);
   const EmbreeTracer embree(triangles.corners);
 #endif
 
@@ -162,6 +194,12 @@ void run(const Options& options) {
       variant.emplace(device, scene, rays.list, &source);
       contenders.push_back({"against", [&] { variant->reset(); }, [&] { variant->trace(); }, {}, {}});
     }
+    std::optional<RayBatch> query;
+    if (queryScene) {
+      query.emplace(device, *queryScene, rays.list);
+      contenders.push_back({"ray-query", [&] { query->reset(); }, [&] { query->trace(); }, {}, {}});
+      json["ray_query_build_seconds"] = queryScene->statistics().bvhSeconds;
+    }
 #ifdef ISOPHOTE_HAS_EMBREE
     std::vector<EmbreeHit> single, packet;
     contenders.push_back({"embree1", [] {}, [&] { embree.trace(rays.list, false, single); }, {}, {}});
@@ -177,6 +215,13 @@ void run(const Options& options) {
           fmt::format("{} of {} rays of {} meet something else in Embree", wrong, rays.list.rays.size(), rays.name));
     }
 #endif
+    if (query) {
+      const uint64_t others = mismatches(rays.list, {own, triangles}, {*query, queryTriangles});
+      json["ray_query_mismatches"] = others;
+      if (static_cast<double>(others) > kAllowedMismatches * static_cast<double>(rays.list.rays.size()) + 1)
+        throw Error(fmt::format("{} of {} rays of {} meet something else by ray query", others, rays.list.rays.size(),
+                                rays.name));
+    }
     if (variant && variant->met() != own.met()) throw Error("the kernels of --against give other hits");
     const auto count = static_cast<double>(rays.list.rays.size());
     const Contender& first = contenders.front();
@@ -194,7 +239,8 @@ void run(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program("Traces recorded rays in Isophote's kernels and in Embree; one JSON line a kind of ray");
+  CLI::App program(
+      "Traces recorded rays in Isophote's kernels, in Embree and by ray query; one JSON line a kind of ray");
   Options options;
   program.add_option("SCENE", options.scene, "glTF 2.0 file")->required();
   program.add_option("--device", options.device, "as for isophote render");
@@ -204,6 +250,7 @@ int main(int argc, char** argv) {
   program.add_option("--repetitions", options.repetitions, "rounds that count")->check(CLI::Range(1, 1000));
   program.add_option("--save-rays", options.saveRays, "folder for the rays, for isophote bench --rays");
   program.add_option("--against", options.against, "folder with SPIR-V of another build that reads the same layout");
+  program.add_flag("--ray-query", options.rayQuery, "also trace through the device's acceleration structures");
   cli::addEnvironmentFlags(program, options.environment);
   CLI11_PARSE(program, argc, argv);
   try {

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "isophote/scene.hpp"
+#include "isophote/settings.hpp"
 
 namespace isophote::bench {
 
@@ -19,7 +20,8 @@ struct WorldTriangles {
   }
 };
 
-[[nodiscard]] WorldTriangles worldTriangles(const Scene& scene);
+/// As GpuScene numbers them for a backend.
+[[nodiscard]] WorldTriangles worldTriangles(const Scene& scene, Backend backend);
 
 /// Where along the ray its line meets the plane of a triangle.
 [[nodiscard]] double planeDistance(const glm::vec3 (&corners)[3], glm::dvec3 origin, glm::dvec3 direction);

@@ -12,6 +12,7 @@
 #include "isophote/path_tracer.hpp"
 #include "isophote/ray_bench.hpp"
 #include "parse.hpp"
+#include "rendering/backend.hpp"
 
 namespace isophote::cli {
 namespace {
@@ -27,10 +28,15 @@ struct BenchOptions {
   EnvironmentOptions environment;
   std::optional<std::string> variant;
   std::string device;
+  Backend backend = Backend::Compute;
   std::string rays;
   double seconds = 4;
   bool json = false;
 };
+
+DeviceOptions deviceOptions(const BenchOptions& options) {
+  return {.selector = options.device, .rayQuery = options.backend == Backend::RayQuery};
+}
 
 double kernelMilliseconds(const RenderStatistics& statistics, const std::string& name) {
   for (const KernelStatistics& kernel : statistics.kernels) {
@@ -111,6 +117,7 @@ Json resultJson(const BenchOptions& options, const DeviceInfo& device, const Sce
           {"scene", options.scene},
           {"device", device.name},
           {"driver", device.driver},
+          {"backend", backendName(options.backend)},
           {"triangles", scene.triangles},
           {"instanced_triangles", scene.instancedTriangles},
           {"image", {{"width", kWidth}, {"height", kHeight}}},
@@ -149,8 +156,8 @@ void printText(const Json& json) {
 int runRays(const BenchOptions& options) {
   const RayList list = readRays(options.rays);
   const VulkanInstance instance;
-  const Device device(instance, {.selector = options.device});
-  const GpuScene scene(device, loadScene(options.scene, options.environment, options.variant).scene);
+  const Device device(instance, deviceOptions(options));
+  const GpuScene scene(device, loadScene(options.scene, options.environment, options.variant).scene, options.backend);
   RayTimes times = timeRays(device, scene, list, options.seconds);
   std::sort(times.seconds.begin(), times.seconds.end());
   const double median = times.seconds[times.seconds.size() / 2];
@@ -161,6 +168,7 @@ int runRays(const BenchOptions& options) {
                        {"scene", options.scene},
                        {"device", device.info().name},
                        {"driver", device.info().driver},
+                       {"backend", backendName(options.backend)},
                        {"triangles", scene.statistics().triangles},
                        {"rays_file", options.rays},
                        {"question", closest ? "closest" : "occluded"},
@@ -186,8 +194,8 @@ int runBench(const BenchOptions& options) {
   const View view = chooseView(asset, {}, kWidth, kHeight);
 
   const VulkanInstance instance;
-  const Device device(instance, {.selector = options.device});
-  const GpuScene scene(device, asset);
+  const Device device(instance, deviceOptions(options));
+  const GpuScene scene(device, asset, options.backend);
   const FilmOptions film{.width = kWidth, .height = kHeight, .aovs = false};
   BenchResult result;
   {
@@ -217,6 +225,7 @@ void addBenchCommand(CLI::App& program, Action& action) {
   command->add_flag("--json", options->json, "Machine-readable");
   command->add_option("--device", options->device, "Vulkan device by part of its name, index, or cpu")
       ->type_name("NAME|INDEX|cpu");
+  addBackendFlag(*command, options->backend);
   command->add_option("--rays", options->rays, "Trace the rays of a file that bench/ recorded, and nothing else")
       ->type_name("FILE");
   addValue(

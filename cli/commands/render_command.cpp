@@ -14,6 +14,7 @@
 #include "input/scene_files.hpp"
 #include "isophote/denoise.hpp"
 #include "isophote/error.hpp"
+#include "rendering/backend.hpp"
 #include "rendering/interrupt.hpp"
 #include "rendering/render_options.hpp"
 #include "rendering/render_plan.hpp"
@@ -175,7 +176,8 @@ void writeImages(const RenderOptions& options, const Image& image, bool environm
 void describeStart(const RenderReport& report) {
   fmt::print("{}: {} triangles, {} with instances; BVH in {:.2f} s\n", report.scene, report.sceneStatistics.triangles,
              report.sceneStatistics.instancedTriangles, report.seconds.bvh);
-  fmt::print("device: {} ({}), {}\n", report.device.name, report.device.kind, report.device.driver);
+  fmt::print("device: {} ({}), {}; backend {}\n", report.device.name, report.device.kind, report.device.driver,
+             backendName(report.sceneStatistics.backend));
   fmt::print("features: {}\n", fmt::join(report.features.names(), ", "));
   std::fflush(stdout); // a log should say so before the hours of rendering
 }
@@ -232,9 +234,9 @@ int runRender(const RenderOptions& options) {
   report.seconds.load = watch.lap();
 
   const VulkanInstance instance({.validation = options.validation});
-  const Device device(instance, {.selector = options.device});
+  const Device device(instance, options.deviceOptions());
   report.device = device.info();
-  const GpuScene scene(device, loaded.scene);
+  const GpuScene scene(device, loaded.scene, options.backend);
   const bool environment = loaded.scene.environment.has_value();
   loaded = {}; // the device has its own copy
   report.sceneStatistics = scene.statistics();

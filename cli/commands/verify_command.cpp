@@ -219,13 +219,13 @@ int runVerify(const VerifyOptions& options) {
   const View view = chooseView(loaded.scene, receipt.camera, receipt.width, receipt.height);
 
   const VulkanInstance instance;
-  const Device device(instance, {.selector = options.device});
+  const Device device(instance, {.selector = options.device, .rayQuery = receipt.backend == Backend::RayQuery});
   const bool sameMaker =
       receipt.version == kVersion && receipt.device == fmt::format("{}, {}", device.info().name, device.info().driver);
   if (!sameMaker && !options.quiet)
     printWarning(fmt::format("the image is of version {} on {}: it can be expected to match within its error only",
                              receipt.version, receipt.device));
-  const GpuScene scene(device, loaded.scene);
+  const GpuScene scene(device, loaded.scene, receipt.backend);
   Verifier verifier(device, scene, receipt, view);
   const std::vector<PixelRect> tiles = chosenTiles(receipt.crop, options);
   ProgressLine line(options.quiet);

@@ -6,6 +6,7 @@
 
 #include "isophote/error.hpp"
 #include "parse.hpp"
+#include "rendering/backend.hpp"
 
 namespace isophote::cli {
 namespace {
@@ -15,7 +16,7 @@ using Json = nlohmann::json;
 /// What requestJson of render_report.cpp puts beside the settings.
 void readRequest(const Json& request, Receipt& receipt) {
   for (const auto& [key, value] : request.items()) {
-    if (value.is_string() && key != "camera" && key != "variant")
+    if (value.is_string() && key != "camera" && key != "variant" && key != "backend")
       setSetting(receipt.settings, key, value.get<std::string>());
   }
   const Json& image = request.at("image");
@@ -31,6 +32,7 @@ void readRequest(const Json& request, Receipt& receipt) {
     receipt.camera.focusDistance = lens.at("focus_distance");
     receipt.camera.apertureBlades = lens.at("aperture_blades");
   }
+  if (request.contains("backend")) receipt.backend = backendFromName(request.at("backend").get<std::string>());
   if (request.contains("variant")) receipt.variant = request.at("variant").get<std::string>();
 }
 

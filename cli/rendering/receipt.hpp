@@ -23,6 +23,7 @@ struct Receipt {
   std::string sceneHash;
   std::vector<SampleRange> samples;
   Settings settings;
+  Backend backend = Backend::Compute;
   uint32_t width = 0; ///< of the full image
   uint32_t height = 0;
   PixelRect crop; ///< the part that the image shows

@@ -4,6 +4,7 @@
 
 #include "isophote/error.hpp"
 #include "parse.hpp"
+#include "rendering/backend.hpp"
 
 namespace isophote::cli {
 namespace {
@@ -188,6 +189,7 @@ void addRenderFlags(CLI::App& command, RenderOptions& options) {
       .add_option("--device", options.device,
                   "Vulkan device by part of its name, index, or cpu (the fastest kind present)")
       ->type_name("NAME|INDEX|cpu");
+  addBackendFlag(command, options.backend);
   command.add_option("--stats", options.statsFile, "Write times, rays, memory and error as JSON")->type_name("F.json");
   command.add_flag("--quiet", options.quiet, "Print warnings and errors only");
   command.add_flag("-v,--verbose", options.verbose, "Say what is loaded, built and used");
@@ -200,6 +202,10 @@ FilmOptions RenderOptions::filmOptions(const View& view) const {
           .crop = crop,
           .clampLedger = settings.estimator.clamp < kNoClamp,
           .depthLedger = settings.estimator.maxDepth != kUnlimitedDepth && settings.execution.depthLedger};
+}
+
+DeviceOptions RenderOptions::deviceOptions() const {
+  return {.selector = device, .rayQuery = backend == Backend::RayQuery};
 }
 
 StopRule RenderOptions::stopRule() const {

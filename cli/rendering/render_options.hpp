@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "input/scene_source.hpp"
+#include "isophote/device.hpp"
 #include "isophote/image.hpp"
 #include "rendering/checkpoint_keeper.hpp"
 #include "rendering/stop_rule.hpp"
@@ -37,6 +38,7 @@ struct RenderOptions {
   ToneMap toneMap = ToneMap::Neutral;
   Transfer transfer = Transfer::Srgb;
   std::string device;
+  Backend backend = Backend::Compute;
   bool plan = false; ///< say what the render would take, and no more
   double pilotSeconds = 3;
   bool json = false; ///< of the plan
@@ -48,6 +50,7 @@ struct RenderOptions {
   /// 64 samples where nothing else says when to stop.
   [[nodiscard]] StopRule stopRule() const;
   [[nodiscard]] FilmOptions filmOptions(const View& view) const;
+  [[nodiscard]] DeviceOptions deviceOptions() const;
 };
 
 void addRenderFlags(CLI::App& command, RenderOptions& options);

@@ -194,8 +194,8 @@ int runPlan(const RenderOptions& options) {
   for (const std::string& warning : loaded.scene.warnings) printWarning(warning);
   const View view = chooseView(loaded.scene, options.camera, options.width, options.height);
   const VulkanInstance instance({.validation = options.validation});
-  const Device device(instance, {.selector = options.device});
-  const GpuScene scene(device, loaded.scene);
+  const Device device(instance, options.deviceOptions());
+  const GpuScene scene(device, loaded.scene, options.backend);
   Memory memory{.scene = scene.statistics().sceneBytes + scene.statistics().bvhBytes};
   PixelRect crop;
   {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "isophote/version.hpp"
+#include "rendering/backend.hpp"
 
 namespace isophote::cli {
 namespace {
@@ -140,6 +141,8 @@ Json requestJson(const RenderReport& report) {
   settings["environment"] = report.environment;
   if (report.variant) settings["variant"] = *report.variant;
   if (report.adaptive) settings["adaptive"] = true;
+  if (report.sceneStatistics.backend != Backend::Compute)
+    settings["backend"] = backendName(report.sceneStatistics.backend);
   return settings;
 }
 
@@ -169,6 +172,7 @@ Json statsJson(const RenderReport& report) {
           {"scene", report.scene},
           {"device", report.device.name},
           {"driver", report.device.driver},
+          {"backend", backendName(scene.backend)},
           {"features", report.features.names()},
           {"kernels", kernelsJson(render)},
           {"rays", {{"primary", render.primaryRays}, {"bounce", render.bounceRays}, {"shadow", render.shadowRays}}},

@@ -47,7 +47,7 @@ struct NodeContents {
 // What a ray hits of a node.
 struct NodeHits {
   uint firstChild;
-  uint group; // inner children: see traverse.glsl
+  uint group; // inner children: see traverse_bvh.glsl
   uint firstItem;
   uint items; // bits of BvhNode.contents
   uint present;

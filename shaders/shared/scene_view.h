@@ -31,6 +31,8 @@ struct SceneView {
   Address sheenTable;        // the same of the sheen
   Address coatedSheenTable;  // vec4 table of bsdf/coated_sheen.glsl
   Address filmAlbedo;        // vec3 tables of bsdf/film_albedo.glsl
+  Address topLevel;          // acceleration structure of the device, in place of `nodes`; 0: there is none
+  Address rangeStarts;       // uint, per geometry of its bottom levels: the first in `triangles`
   EnvironmentRecord environment;
   uint lightCount;
   uint emissiveTriangleCount;

@@ -21,7 +21,7 @@ constexpr uint32_t kPushBytes = 28; // without C++'s trailing padding
 
 void runProbeBytes(const gpu::KernelSource& source, std::span<const std::byte> inputs, std::span<std::byte> outputs,
                    uint32_t count, const ProbeEnvironment& environment) {
-  const Device& device = gpuDevice();
+  const Device& device = environment.device != nullptr ? *environment.device : gpuDevice();
   const gpu::Buffer input(device, inputs.size(), gpu::Memory::Device, "probe.inputs");
   const gpu::Buffer output(device, outputs.size(), gpu::Memory::Device, "probe.outputs");
   gpu::writeBuffer(device, input, 0, inputs);

@@ -17,6 +17,7 @@ struct ProbeEnvironment {
   uint64_t extra = 0;                           ///< pc.extra
   std::span<const gpu::SpecConstant> constants; ///< beside the workgroup size, constant 0
   const gpu::TextureArray* textures = nullptr;  ///< set 0
+  const Device* device = nullptr;               ///< null: gpuDevice()
 };
 
 /// The untyped core of runProbe: `outputs` receives one result for each of `count` inputs, in order.

@@ -49,8 +49,9 @@ private:
 };
 
 struct DeviceOptions {
-  std::string selector; ///< name part, index, or "cpu"; empty: the fastest kind present
-  bool present = false; ///< enable VK_KHR_swapchain
+  std::string selector;  ///< name part, index, or "cpu"; empty: the fastest kind present
+  bool present = false;  ///< enable VK_KHR_swapchain
+  bool rayQuery = false; ///< enable VK_KHR_ray_query, for scenes of Backend::RayQuery; devices without it are refused
 };
 
 /// One VkDevice with one queue that computes and transfers (and presents where asked). Borrows the VulkanInstance.

@@ -9,6 +9,7 @@
 #include "isophote/device.hpp"
 #include "isophote/features.hpp"
 #include "isophote/scene.hpp"
+#include "isophote/settings.hpp"
 
 namespace isophote {
 
@@ -19,9 +20,10 @@ struct BufferUse {
 
 /// What building the scene cost, for stats.
 struct SceneStatistics {
+  Backend backend = Backend::Compute;
   uint64_t triangles = 0; ///< stored, each once
   uint64_t instancedTriangles = 0;
-  uint64_t bvhNodes = 0;
+  uint64_t bvhNodes = 0; ///< with sahCost and bvhMaxDepth: of Backend::Compute, the device does not tell its own
   double sahCost = 0;
   uint32_t bvhMaxDepth = 0;
   double bvhSeconds = 0;
@@ -37,8 +39,12 @@ struct SceneStatistics {
 class GpuScene {
 public:
   /// Builds the BVHs, packs and uploads.
-  /// @throws LimitError with needed and available bytes, before anything is uploaded
-  GpuScene(const Device& device, const Scene& scene);
+  ///
+  /// @param backend  RayQuery has the device build its acceleration structures in place of the BVHs; renders of the
+  ///                 scene then use them. It needs a Device with DeviceOptions::rayQuery.
+  /// @throws LimitError with needed and available bytes, before anything is uploaded (acceleration structures: after
+  ///         what they are built from); UsageError where the device has no ray query enabled
+  GpuScene(const Device& device, const Scene& scene, Backend backend = Backend::Compute);
   GpuScene(GpuScene&&) noexcept;
   GpuScene& operator=(GpuScene&&) noexcept;
   ~GpuScene();

@@ -53,6 +53,11 @@ struct EstimatorSettings {
   uint64_t seed = 0;
 };
 
+/// Who finds what a ray meets: the project's own BVH and kernels, or the device's acceleration structures
+/// (VK_KHR_ray_query). Where a ray passes within rounding of an edge, or two surfaces coincide, they may choose
+/// another triangle.
+enum class Backend : uint32_t { Compute, RayQuery };
+
 /// How the work is cut; never changes a bit of the image on one device and driver.
 struct ExecutionSettings {
   uint32_t pathPoolSize = 0;       ///< 0: chosen for the device

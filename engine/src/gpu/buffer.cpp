@@ -40,11 +40,16 @@ void Buffer::create(Memory memory) {
     throw LimitError(name_ + " needs " + std::to_string(bytes_) + " bytes; a buffer of " + device_->info.name +
                      " holds at most " + std::to_string(device_->maxBufferBytes));
   }
+  VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                             VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  if (device_->acceleration) {
+    usage |= VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR |
+             VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+  }
   const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                 .size = (bytes_ + 3) & ~3ull, // vkCmdFillBuffer writes whole words
-                                .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+                                .usage = usage};
   check(vkCreateBuffer(device_->handle, &info, nullptr, &buffer_), "vkCreateBuffer");
   device_->name(buffer_, VK_OBJECT_TYPE_BUFFER, name_);
   VkMemoryRequirements requirements{};

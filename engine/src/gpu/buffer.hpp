@@ -17,7 +17,8 @@ enum class Memory : uint32_t {
 };
 
 /// A storage buffer with a device address, move-only, named for debuggers. Also usable for indirect arguments,
-/// transfers both ways. One allocation each. Size 0 makes a null buffer with address 0.
+/// transfers both ways and, on a device with ray query, acceleration structures. One allocation each. Size 0 makes a
+/// null buffer with address 0.
 class Buffer {
 public:
   Buffer() = default;

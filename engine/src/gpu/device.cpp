@@ -14,12 +14,20 @@ namespace {
 /// A transfer moves at most the staging size; longer than this means the driver hangs.
 constexpr double kTransferTimeoutSeconds = 600;
 
-void createLogicalDevice(Device::Impl& impl, bool present) {
+void createLogicalDevice(Device::Impl& impl, const DeviceOptions& options) {
   gpu::DeviceFeatures features;
   features.visitNeeded([](const char*, VkBool32& enabled) { enabled = VK_TRUE; });
+  gpu::RayQueryFeatures rayQuery;
+  rayQuery.acceleration.accelerationStructure = VK_TRUE;
+  rayQuery.rayQuery.rayQuery = VK_TRUE;
   std::vector<const char*> extensions;
   if (impl.memoryBudget) extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
-  if (present) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (options.present) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (options.rayQuery) {
+    extensions.insert(extensions.end(), std::begin(gpu::kRayQueryExtensions), std::end(gpu::kRayQueryExtensions));
+    rayQuery.rayQuery.pNext = features.core.pNext;
+    features.core.pNext = &rayQuery.acceleration;
+  }
   const float priority = 1;
   const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                       .queueFamilyIndex = impl.queueFamily,
@@ -133,14 +141,15 @@ void Device::Impl::finishTransfer() {
 }
 
 Device::Device(const VulkanInstance& instance, const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
-  const auto devices = gpu::listPhysicalDevices(instance.handle(), options.present);
+  const auto devices = gpu::listPhysicalDevices(instance.handle(), {options.present, options.rayQuery});
   const gpu::PhysicalDevice& chosen = gpu::selectPhysicalDevice(devices, options.selector);
   impl_->instance = instance.handle();
   impl_->physical = chosen.handle;
   impl_->queueFamily = chosen.queueFamily;
   impl_->info = chosen.info;
   readLimits(*impl_);
-  createLogicalDevice(*impl_, options.present);
+  createLogicalDevice(*impl_, options);
+  if (options.rayQuery) impl_->acceleration.emplace(impl_->physical, impl_->handle);
   if (instance.impl_->debugUtils) loadDebugFunctions(*impl_);
   impl_->name(impl_->handle, VK_OBJECT_TYPE_DEVICE, "isophote");
   impl_->name(impl_->queue, VK_OBJECT_TYPE_QUEUE, "isophote");

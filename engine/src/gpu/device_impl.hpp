@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "gpu/acceleration_functions.hpp"
 #include "isophote/device.hpp"
 
 namespace isophote {
@@ -27,6 +29,8 @@ struct Device::Impl {
   VkPhysicalDeviceMemoryProperties memory{};
   bool memoryBudget = false;  ///< VK_EXT_memory_budget tells what other programs use
   bool unifiedMemory = false; ///< device memory is the host's: map it instead of staging
+
+  std::optional<gpu::AccelerationFunctions> acceleration; ///< of a device with ray query enabled
 
   VkPipelineCache cache = VK_NULL_HANDLE;
   std::filesystem::path cacheFile; ///< empty: nowhere to keep it

@@ -104,7 +104,7 @@ VkInstance VulkanInstance::handle() const { return impl_->handle; }
 
 std::vector<DeviceInfo> VulkanInstance::devices() const {
   std::vector<DeviceInfo> infos;
-  for (auto& candidate : gpu::listPhysicalDevices(impl_->handle, false)) infos.push_back(std::move(candidate.info));
+  for (auto& candidate : gpu::listPhysicalDevices(impl_->handle, {})) infos.push_back(std::move(candidate.info));
   return infos;
 }
 

@@ -95,7 +95,18 @@ std::string joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-PhysicalDevice describe(VkPhysicalDevice device, uint32_t index, bool present) {
+bool hasRayQuery(VkPhysicalDevice device) {
+  for (const char* extension : kRayQueryExtensions) {
+    if (!hasDeviceExtension(device, extension)) return false;
+  }
+  RayQueryFeatures features;
+  VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                 .pNext = &features.acceleration};
+  vkGetPhysicalDeviceFeatures2(device, &core);
+  return features.acceleration.accelerationStructure && features.rayQuery.rayQuery;
+}
+
+PhysicalDevice describe(VkPhysicalDevice device, uint32_t index, const DeviceNeeds& needs) {
   VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
   VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
                                           .pNext = &subgroup};
@@ -115,19 +126,21 @@ PhysicalDevice describe(VkPhysicalDevice device, uint32_t index, bool present) {
   }
   result.info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   result.info.subgroupSize = subgroup.subgroupSize;
-  result.info.rayQuery = hasDeviceExtension(device, VK_KHR_RAY_QUERY_EXTENSION_NAME);
+  result.info.rayQuery = hasRayQuery(device);
 
   std::vector<std::string> missing;
   checkFeatures(device, missing);
   checkSubgroups(subgroup, missing);
   checkFormats(device, missing);
-  if (const auto family = findQueueFamily(device, present)) {
+  if (const auto family = findQueueFamily(device, needs.present)) {
     result.queueFamily = *family;
   } else {
-    missing.emplace_back(present ? "a queue that draws, computes and has timestamps"
-                                 : "a queue that computes and has timestamps");
+    missing.emplace_back(needs.present ? "a queue that draws, computes and has timestamps"
+                                       : "a queue that computes and has timestamps");
   }
-  if (present && !hasDeviceExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) missing.emplace_back("VK_KHR_swapchain");
+  if (needs.present && !hasDeviceExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+    missing.emplace_back("VK_KHR_swapchain");
+  if (needs.rayQuery && !result.info.rayQuery) missing.emplace_back("VK_KHR_ray_query");
   result.info.rejection = joined(missing);
   return result;
 }
@@ -183,13 +196,13 @@ bool hasDeviceExtension(VkPhysicalDevice device, const char* name) {
                      [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
-std::vector<PhysicalDevice> listPhysicalDevices(VkInstance instance, bool present) {
+std::vector<PhysicalDevice> listPhysicalDevices(VkInstance instance, const DeviceNeeds& needs) {
   uint32_t count = 0;
   check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
   std::vector<VkPhysicalDevice> handles(count);
   check(vkEnumeratePhysicalDevices(instance, &count, handles.data()), "vkEnumeratePhysicalDevices");
   std::vector<PhysicalDevice> devices;
-  for (uint32_t i = 0; i < count; ++i) devices.push_back(describe(handles[i], i, present));
+  for (uint32_t i = 0; i < count; ++i) devices.push_back(describe(handles[i], i, needs));
   return devices;
 }
 

@@ -15,9 +15,14 @@ struct PhysicalDevice {
   uint32_t queueFamily = 0; ///< of a usable device
 };
 
+/// What only some programs ask of a device.
+struct DeviceNeeds {
+  bool present = false;  ///< a swapchain and a queue that draws
+  bool rayQuery = false; ///< what kRayQueryExtensions and RayQueryFeatures name
+};
+
 /// Every device the loader offers, in its order.
-/// @param present  also require a swapchain and a queue that draws
-[[nodiscard]] std::vector<PhysicalDevice> listPhysicalDevices(VkInstance instance, bool present);
+[[nodiscard]] std::vector<PhysicalDevice> listPhysicalDevices(VkInstance instance, const DeviceNeeds& needs);
 
 /// The usable device that `selector` means (see DeviceOptions): the fastest kind among those that match.
 /// @throws DeviceError listing every device with the reason it was refused
@@ -50,6 +55,22 @@ struct DeviceFeatures {
     visit("hostQueryReset", v12.hostQueryReset);
     visit("synchronization2", v13.synchronization2);
   }
+};
+
+/// Ray query and what it builds upon.
+inline constexpr const char* kRayQueryExtensions[] = {VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                                      VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                                      VK_KHR_RAY_QUERY_EXTENSION_NAME};
+
+/// Their features, chained for DeviceFeatures. Not copyable: it points into itself.
+struct RayQueryFeatures {
+  RayQueryFeatures() { acceleration.pNext = &rayQuery; }
+  RayQueryFeatures(const RayQueryFeatures&) = delete;
+  RayQueryFeatures& operator=(const RayQueryFeatures&) = delete;
+
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+  VkPhysicalDeviceRayQueryFeaturesKHR rayQuery{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
 };
 
 } // namespace isophote::gpu

@@ -118,7 +118,8 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   }
   const KernelNeeds needs = {.depthLedger = target.options().depthLedger && execution.depthLedger &&
                                             estimator.maxDepth != kUnlimitedDepth,
-                             .pixelList = pixelList.bytes() != 0};
+                             .pixelList = pixelList.bytes() != 0,
+                             .backend = scene.statistics().backend};
   if (kernels && features == kernelFeatures && needs == kernelNeeds) return;
   if (needs.depthLedger != kernelNeeds.depthLedger) pool.reset(); // it holds other state
   kernelNeeds = needs;

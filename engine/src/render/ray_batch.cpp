@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "isophote/error.hpp"
-#include "isophote_kernels.hpp"
 #include "render/wavefront_kernels.hpp"
 #include "shared/geometry_types.h"
 #include "upload/gpu_scene.hpp"
@@ -26,7 +25,7 @@ template <class T> std::vector<T> download(const Device& device, const gpu::Buff
 gpu::Kernel makeKernel(const Device& device, const GpuScene& scene, RayQuestion question,
                        const gpu::KernelSource* source) {
   const char* name = question == RayQuestion::Occluded ? "intersect_shadow" : "intersect_closest";
-  return {device, source != nullptr ? *source : isophote_kernels::kernelSource(name),
+  return {device, source != nullptr ? *source : kernelOf(name, scene.statistics().backend),
           kernelConstants(scene.features(), {}, kWorkgroup), scene.impl().textures.layout(), sizeof(gpu::KernelArgs)};
 }
 
@@ -46,7 +45,8 @@ RayBatch::RayBatch(const Device& device, const GpuScene& scene, const RayList& l
                    std::as_bytes(std::span(slots)));
   if (occluded) {
     std::vector<gpu::ShadowState> shadows;
-    for (const Ray& ray : list.rays) shadows.push_back({local(ray), ray.tMax, ray.direction, 0, glm::vec3(1)});
+    for (const Ray& ray : list.rays)
+      shadows.push_back({local(ray), ray.tMax, ray.direction, gpu::kInvalidIndex, glm::vec3(1)});
     upload(device, pool_.shadows, shadows);
   } else {
     std::vector<gpu::RayState> rays;

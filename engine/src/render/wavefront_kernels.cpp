@@ -4,8 +4,14 @@
 #include "render/setting_ids.hpp"
 #include "shared/path_types.h"
 
+#include <algorithm>
+#include <string>
+
 namespace isophote {
 namespace {
+
+// Those that trace rays: they are compiled once for each backend (RAY_QUERY in engine/CMakeLists.txt).
+constexpr std::string_view kTracingKernels[] = {"intersect_closest", "intersect_shadow", "find_camera_media"};
 
 // Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
 bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger) {
@@ -49,6 +55,15 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   return constants;
 }
 
+gpu::KernelSource kernelOf(std::string_view name, Backend backend) {
+  gpu::KernelSource source = isophote_kernels::kernelSource(name);
+  const bool traces =
+      std::find(std::begin(kTracingKernels), std::end(kTracingKernels), name) != std::end(kTracingKernels);
+  if (backend == Backend::RayQuery && traces)
+    source.spirv = isophote_kernels::kernelSource(std::string(name) + "_ray_query").spirv;
+  return source;
+}
+
 std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
   std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
   if (shadeEscaped) kernels.push_back(&*shadeEscaped);
@@ -65,7 +80,7 @@ WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& fe
                                       VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
   const auto constants = kernelConstants(features, settings, workgroupSize, needs);
   const auto make = [&](const char* name) {
-    return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
+    return gpu::Kernel(device, kernelOf(name, needs.backend), constants, textureLayout, sizeof(gpu::KernelArgs));
   };
   WavefrontKernels kernels{.prepare = make("prepare"),
                            .regenerate = make("regenerate"),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "gpu/kernel.hpp"
@@ -12,8 +13,9 @@ namespace isophote {
 
 /// What a render asks of its kernels beside features and settings.
 struct KernelNeeds {
-  bool depthLedger = false; ///< some paths are followed beyond the depth limit
-  bool pixelList = false;   ///< some pixels are sampled, not all
+  bool depthLedger = false;           ///< some paths are followed beyond the depth limit
+  bool pixelList = false;             ///< some pixels are sampled, not all
+  Backend backend = Backend::Compute; ///< the scene's
   bool operator==(const KernelNeeds&) const = default;
 };
 
@@ -36,6 +38,9 @@ struct WavefrontKernels {
 [[nodiscard]] std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features,
                                                              const EstimatorSettings& settings, uint32_t workgroupSize,
                                                              const KernelNeeds& needs = {});
+
+/// The product's kernel `name` for scenes of a backend; statistics know it by the same name in both.
+[[nodiscard]] gpu::KernelSource kernelOf(std::string_view name, Backend backend);
 
 /// @param textureLayout  of the scene's texture array, null where it has none
 [[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,

@@ -4,6 +4,7 @@
 
 #include "gpu/device_impl.hpp"
 #include "gpu/texture_pixels.hpp"
+#include "upload/acceleration.hpp"
 #include "upload/pack_scene.hpp"
 
 #include "shared/scene_view.h"
@@ -39,6 +40,7 @@ std::vector<ArrayUpload> arrayUploads(const PackedScene& packed, gpu::SceneView&
   std::vector<ArrayUpload> all{
       arrayUpload(kNodeBuffer, packed.nodes, view.nodes),
       arrayUpload("scene.triangles", packed.triangles, view.triangles),
+      arrayUpload("scene.rangeStarts", packed.rangeStarts, view.rangeStarts),
       arrayUpload("scene.instances", packed.instances, view.instances),
       arrayUpload("scene.geometries", packed.geometries, view.geometries),
       arrayUpload("scene.indices", packed.indices, view.indices),
@@ -125,10 +127,13 @@ void setBvhStatistics(const BvhStatistics& bvh, SceneStatistics& statistics) {
 
 } // namespace
 
-GpuScene::GpuScene(const Device& device, const Scene& scene) : impl_(std::make_unique<Impl>()) {
+GpuScene::GpuScene(const Device& device, const Scene& scene, Backend backend) : impl_(std::make_unique<Impl>()) {
+  if (backend == Backend::RayQuery && !device.impl().acceleration)
+    throw UsageError("a scene for ray query needs a device that was made with it");
   const auto packStart = Clock::now();
-  const PackedScene packed = packScene(scene);
+  const PackedScene packed = packScene(scene, backend);
   SceneStatistics& statistics = impl_->statistics;
+  statistics.backend = backend;
   setBvhStatistics(packed.bvh, statistics);
   statistics.packSeconds = secondsSince(packStart) - statistics.bvhSeconds;
   impl_->features = packed.features;
@@ -150,6 +155,14 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : impl_(std::make_u
     (array.name == kNodeBuffer ? statistics.bvhBytes : statistics.sceneBytes) += buffer.bytes();
     impl_->buffers.push_back(std::move(buffer));
   }
+  if (backend == Backend::RayQuery && !packed.instances.empty()) {
+    const auto buildStart = Clock::now();
+    impl_->acceleration = buildAcceleration(device, packed, view.triangles);
+    view.topLevel = impl_->acceleration.topLevel();
+    statistics.bvhBytes = impl_->acceleration.bytes();
+    statistics.buffers.push_back({"scene.acceleration", statistics.bvhBytes});
+    statistics.bvhSeconds = secondsSince(buildStart);
+  }
   impl_->view = gpu::uploadBuffer(device, std::vector<gpu::SceneView>{view}, "scene.view");
   impl_->viewContents = view;
   impl_->tables = packed.tables;
@@ -158,6 +171,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : impl_(std::make_u
   statistics.textureBytes = impl_->textures.bytes();
   statistics.sceneBytes += impl_->view.bytes() + statistics.textureBytes;
   statistics.uploadSeconds = secondsSince(uploadStart);
+  if (backend == Backend::RayQuery) statistics.uploadSeconds -= statistics.bvhSeconds;
 }
 
 GpuScene::GpuScene(GpuScene&&) noexcept = default;

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "gpu/acceleration_structures.hpp"
 #include "gpu/buffer.hpp"
 #include "gpu/texture_array.hpp"
 #include "isophote/gpu_scene.hpp"
@@ -15,8 +16,9 @@
 namespace isophote {
 
 struct GpuScene::Impl {
-  std::vector<gpu::Buffer> buffers; ///< those that exist; `view` holds their addresses
-  gpu::Buffer view;                 ///< one gpu::SceneView, without the tables of scattering
+  std::vector<gpu::Buffer> buffers;         ///< those that exist; `view` holds their addresses
+  gpu::AccelerationStructures acceleration; ///< of Backend::RayQuery
+  gpu::Buffer view;                         ///< one gpu::SceneView, without the tables of scattering
   gpu::SceneView viewContents{};
   TableNeeds tables; ///< which a renderer computes for its settings
   gpu::TextureArray textures;

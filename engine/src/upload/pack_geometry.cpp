@@ -5,7 +5,9 @@
 #include "upload/pack_bvh.hpp"
 #include "upload/pack_instances.hpp"
 #include "upload/pack_texels.hpp"
+#include "upload/place_order.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -32,8 +34,8 @@ template <class T> uint32_t append(std::vector<T>& all, const std::vector<T>& va
 
 class MeshPacker {
 public:
-  MeshPacker(const Scene& scene, const PackedMaterials& materials, PackedScene& packed)
-      : scene_(scene), materials_(materials), packed_(packed) {}
+  MeshPacker(const Scene& scene, const PackedMaterials& materials, Backend backend, PackedScene& packed)
+      : scene_(scene), materials_(materials), backend_(backend), packed_(packed) {}
 
   // Appends the meshes of a group; their BVH nodes go to `nodes` with indices relative to that array.
   PackedMesh add(const MeshGroup& group, std::vector<gpu::BvhNode>& nodes) {
@@ -56,7 +58,12 @@ public:
       }
     }
     if (triangles.empty()) return result;
-    buildTree(triangles, result, nodes);
+    result.triangleCount = static_cast<uint32_t>(triangles.size());
+    if (backend_ == Backend::RayQuery) {
+      listRanges(triangles);
+    } else {
+      buildTree(triangles, result, nodes);
+    }
     result.emitters = emitters(emissive, result);
     return result;
   }
@@ -103,7 +110,6 @@ private:
     WideBvh bvh = buildTimedBvh(boxes, gpu::kBvhItemsPerSlot, packed_.bvh);
     const auto firstTriangle = static_cast<uint32_t>(packed_.triangles.size());
     mesh.rootNode = static_cast<uint32_t>(nodes.size());
-    mesh.triangleCount = static_cast<uint32_t>(triangles.size());
     mesh.maxDepth = bvh.maxDepth;
     mesh.sahCost = bvh.sahCost;
     mesh.bounds = bvh.bounds;
@@ -115,7 +121,29 @@ private:
     for (const uint32_t item : bvh.order) packed_.triangles.push_back(triangles[item]);
   }
 
-  // Emitters in the order of light indices, from triangles in leaf order.
+  // Opaque triangles first, so that the device need not ask about them; each range in an order that builders like.
+  void listRanges(std::vector<gpu::BvhTriangle>& triangles) {
+    const auto isOpaque = [](const gpu::BvhTriangle& triangle) {
+      return (triangle.flags & gpu::kTriangleHasAlpha) == 0;
+    };
+    const auto first = static_cast<uint32_t>(packed_.triangles.size());
+    const auto mesh = static_cast<uint32_t>(packed_.meshTriangles.size() - 1);
+    const auto firstWithAlpha = std::stable_partition(triangles.begin(), triangles.end(), isOpaque);
+    sortByPlace({triangles.begin(), firstWithAlpha});
+    sortByPlace({firstWithAlpha, triangles.end()});
+    const auto opaque = static_cast<uint32_t>(firstWithAlpha - triangles.begin());
+    const auto others = static_cast<uint32_t>(triangles.end() - firstWithAlpha);
+    const auto add = [&](uint32_t start, uint32_t count, bool withoutAlpha) {
+      if (count == 0) return;
+      packed_.triangleRanges.push_back({count, mesh, withoutAlpha});
+      packed_.rangeStarts.push_back(start);
+    };
+    add(first, opaque, true);
+    add(first + opaque, others, false);
+    packed_.triangles.insert(packed_.triangles.end(), triangles.begin(), triangles.end());
+  }
+
+  // Emitters in the order of light indices, from the mesh's triangles in any order.
   [[nodiscard]] std::vector<MeshEmitter> emitters(uint32_t count, const PackedMesh& mesh) const {
     std::vector<MeshEmitter> result(count);
     const size_t first = packed_.triangles.size() - mesh.triangleCount;
@@ -152,6 +180,7 @@ private:
 
   const Scene& scene_;
   const PackedMaterials& materials_;
+  Backend backend_;
   PackedScene& packed_;
   std::vector<Source> sources_; // of packed_.geometries
   std::map<uint32_t, bool> opaqueImages_;
@@ -177,18 +206,18 @@ std::vector<bool> usedMeshes(const Scene& scene) {
 }
 
 PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUsed, const PackedMaterials& materials,
-                            PackedScene& packed) {
+                            Backend backend, PackedScene& packed) {
   requireTriangleIndices(scene, meshUsed);
   PackedGeometry result;
   const MeshGroups groups = groupMeshes(scene);
   std::vector<gpu::BvhNode> meshNodes;
-  MeshPacker packer(scene, materials, packed);
+  MeshPacker packer(scene, materials, backend, packed);
   for (const MeshGroup& group : groups.groups) {
     packed.meshTriangles.push_back(static_cast<uint32_t>(packed.triangles.size()));
     result.meshes.push_back(packer.add(group, meshNodes));
   }
   packed.meshTriangles.push_back(static_cast<uint32_t>(packed.triangles.size()));
-  result.sceneInstances = packInstances(scene, groups.placements, result.meshes, packed);
+  result.sceneInstances = packInstances(scene, groups.placements, result.meshes, backend, packed);
   const auto topNodes = static_cast<uint32_t>(packed.nodes.size());
   for (gpu::BvhNode& node : meshNodes) node.firstChild += topNodes;
   packed.nodes.insert(packed.nodes.end(), meshNodes.begin(), meshNodes.end());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/bvh.hpp"
+#include "isophote/settings.hpp"
 #include "upload/pack_materials.hpp"
 #include "upload/pack_scene.hpp"
 
@@ -20,7 +21,7 @@ struct MeshEmitter {
 
 /// What stands in PackedScene for one group of meshes (mesh_groups.hpp).
 struct PackedMesh {
-  uint32_t rootNode = gpu::kInvalidIndex; ///< relative to the first mesh node; kInvalidIndex: no triangles
+  uint32_t rootNode = gpu::kInvalidIndex; ///< relative to the first mesh node; kInvalidIndex: no BVH
   uint32_t triangleCount = 0;
   uint32_t maxDepth = 0;
   double sahCost = 0;
@@ -37,10 +38,10 @@ struct PackedGeometry {
 /// Meshes that an instance refers to.
 [[nodiscard]] std::vector<bool> usedMeshes(const Scene& scene);
 
-/// Fills nodes, triangles, geometries, attributes, instances (without firstEmitter) and the BVH statistics.
-/// Reads packed.worldOrigin.
+/// Fills nodes or triangle ranges, triangles, geometries, attributes, instances (without firstEmitter) and the BVH
+/// statistics. Reads packed.worldOrigin.
 /// @throws LimitError where an index of the device format would overflow
 [[nodiscard]] PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUsed,
-                                          const PackedMaterials& materials, PackedScene& packed);
+                                          const PackedMaterials& materials, Backend backend, PackedScene& packed);
 
 } // namespace isophote

@@ -79,39 +79,21 @@ Box sphereBox(const gpu::InstanceRecord& record) {
   return box;
 }
 
-} // namespace
-
-std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<GroupPlacement>& placements,
-                                    const std::vector<PackedMesh>& meshes, PackedScene& packed) {
-  std::vector<gpu::InstanceRecord> records;
-  std::vector<uint32_t> sceneInstances;
+// Puts the records into the leaf order of the BVH over them, which it returns.
+std::vector<uint32_t> buildTopLevel(const std::vector<PackedMesh>& meshes, std::vector<gpu::InstanceRecord> records,
+                                    PackedScene& packed) {
   std::vector<Box> boxes;
   uint32_t deepestMesh = 0;
-  for (const GroupPlacement& placement : placements) {
-    const PackedMesh& mesh = meshes[placement.group];
-    if (mesh.triangleCount == 0) continue;
-    glm::dmat4 worldFromObject = scene.instances[placement.instance].worldFromObject;
-    worldFromObject[3] -= glm::dvec4(packed.worldOrigin, 0);
-    records.push_back(instanceRecord(worldFromObject, placement.group, mesh));
-    boxes.push_back(worldBox(mesh.bounds, records.back()));
-    sceneInstances.push_back(placement.instance);
-    deepestMesh = std::max(deepestMesh, mesh.maxDepth);
-    packed.bvh.instancedTriangles += mesh.triangleCount;
+  for (const gpu::InstanceRecord& record : records) {
+    const bool isSphere = record.flags == gpu::kInstanceSphere;
+    boxes.push_back(isSphere ? sphereBox(record) : worldBox(meshes[record.mesh].bounds, record));
+    if (!isSphere) deepestMesh = std::max(deepestMesh, meshes[record.mesh].maxDepth);
   }
-  for (uint32_t i = 0; i < scene.lights.size(); ++i) {
-    if (!scene.lights[i].isSphere()) continue;
-    records.push_back(sphereRecord(scene.lights[i], packed.worldOrigin));
-    boxes.push_back(sphereBox(records.back()));
-    sceneInstances.push_back(i);
-  }
-  if (records.empty()) return {};
-
   // One instance a leaf: entering an instance costs more than a node.
   const WideBvh top = buildTimedBvh(boxes, 1, packed.bvh);
   packed.nodes = top.nodes;
   packed.bvh.maxDepth = top.maxDepth + deepestMesh;
   packed.bvh.sahCost = top.sahCost;
-  std::vector<uint32_t> order;
   for (const uint32_t item : top.order) {
     gpu::InstanceRecord& record = records[item];
     const bool isSphere = record.flags == gpu::kInstanceSphere;
@@ -119,9 +101,39 @@ std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<GroupP
     packed.instances.push_back(record);
     const double cost = isSphere ? 1 : meshes[record.mesh].sahCost;
     packed.bvh.sahCost += halfArea(boxes[item]) / halfArea(top.bounds) * cost;
-    order.push_back(sceneInstances[item]);
   }
-  return order;
+  return top.order;
+}
+
+} // namespace
+
+std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<GroupPlacement>& placements,
+                                    const std::vector<PackedMesh>& meshes, Backend backend, PackedScene& packed) {
+  std::vector<gpu::InstanceRecord> records;
+  std::vector<uint32_t> sceneInstances;
+  for (const GroupPlacement& placement : placements) {
+    const PackedMesh& mesh = meshes[placement.group];
+    if (mesh.triangleCount == 0) continue;
+    glm::dmat4 worldFromObject = scene.instances[placement.instance].worldFromObject;
+    worldFromObject[3] -= glm::dvec4(packed.worldOrigin, 0);
+    records.push_back(instanceRecord(worldFromObject, placement.group, mesh));
+    sceneInstances.push_back(placement.instance);
+    packed.bvh.instancedTriangles += mesh.triangleCount;
+  }
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+    if (!scene.lights[i].isSphere()) continue;
+    records.push_back(sphereRecord(scene.lights[i], packed.worldOrigin));
+    sceneInstances.push_back(i);
+  }
+  if (backend == Backend::RayQuery) {
+    packed.instances = std::move(records);
+    return sceneInstances;
+  }
+  if (records.empty()) return {};
+  const std::vector<uint32_t> order = buildTopLevel(meshes, std::move(records), packed);
+  std::vector<uint32_t> ordered;
+  for (const uint32_t item : order) ordered.push_back(sceneInstances[item]);
+  return ordered;
 }
 
 } // namespace isophote

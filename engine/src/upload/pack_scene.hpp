@@ -8,6 +8,7 @@
 
 #include "isophote/features.hpp"
 #include "isophote/scene.hpp"
+#include "isophote/settings.hpp"
 #include "shared/geometry_types.h"
 #include "shared/light_types.h"
 #include "shared/material_types.h"
@@ -33,12 +34,21 @@ struct BvhStatistics {
   double milliseconds = 0;
 };
 
+/// Triangles that form one geometry of a bottom-level acceleration structure.
+struct TriangleRange {
+  uint32_t count = 0;
+  uint32_t mesh = 0;  ///< as InstanceRecord::mesh
+  bool opaque = true; ///< none of them calls the alpha test
+};
+
 /// Everything GpuScene uploads. Arrays a scene does not need are empty.
 struct PackedScene {
   std::vector<gpu::BvhNode> nodes;
   std::vector<gpu::BvhTriangle> triangles;
   std::vector<uint32_t>
       meshTriangles; ///< where the triangles of InstanceRecord::mesh begin, and where the last ones end
+  std::vector<TriangleRange> triangleRanges; ///< of Backend::RayQuery: by mesh; those that call the alpha test last
+  std::vector<uint32_t> rangeStarts;         ///< the first triangle of each range
   std::vector<gpu::InstanceRecord> instances;
   std::vector<gpu::Geometry> geometries;
   std::vector<uint32_t> indices;
@@ -73,7 +83,8 @@ struct PackedScene {
   BvhStatistics bvh;
 };
 
+/// @param backend  RayQuery: no BVH; triangles in the order of the ranges, instances in that of the Scene
 /// @throws LimitError where a 32-bit index of the device format would overflow
-[[nodiscard]] PackedScene packScene(const Scene& scene);
+[[nodiscard]] PackedScene packScene(const Scene& scene, Backend backend = Backend::Compute);
 
 } // namespace isophote
