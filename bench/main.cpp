@@ -16,7 +16,7 @@
 #ifdef ISOPHOTE_HAS_EMBREE
 #include "embree_tracer.hpp"
 #endif
-#include "cli/scene_source.hpp"
+#include "cli/input/scene_source.hpp"
 #include "isophote/device.hpp"
 #include "isophote/error.hpp"
 #include "isophote/gpu_scene.hpp"

@@ -26,7 +26,7 @@ public:
     const gpu::RenderView view =
         renderView(scene.impl(), film_.impl(), camera, {0, 1}, {}, pool_.filterTable.address());
     gpu::writeBuffer(device, pool_.render, 0, std::as_bytes(std::span(&view, 1)));
-    pool_.reset(device);
+    pool_.reset(device, 0);
   }
 
   void start() { run(kernels_.regenerate, gpu::kPrepareRegenerate, gpu::kStageRegenerate); }
