@@ -9,9 +9,24 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ISOPHOTE = ROOT / "build" / "release" / "bin" / "isophote"
 
+_known_kernels = set()
+
 
 def render(scene, *options, image=None):
-    """The statistics of `isophote render`, and of its process: wall clock, processor time (both in seconds), memory."""
+    """The statistics of `isophote render`, and of its process: wall clock, processor time (both in seconds), memory.
+
+    The first render with kernels of a kind is done twice: the first time, driver and product may have to compile them.
+    """
+    stats = _render(scene, options, image)
+    settings = {**stats["settings"], "seed": None, "max-depth": stats["settings"]["max-depth"] == "unlimited"}
+    kernels = json.dumps([stats["features"], settings, stats["execution"]])
+    if kernels in _known_kernels:
+        return stats
+    _known_kernels.add(kernels)
+    return _render(scene, options, image)
+
+
+def _render(scene, options, image):
     with tempfile.TemporaryDirectory() as folder:
         stats = pathlib.Path(folder) / "stats.json"
         image = image or pathlib.Path(folder) / "image.exr"
