@@ -54,13 +54,15 @@ def _spread(places, least=12):
 
 def log_log_svg(curves, x_label, y_label):
     """`curves`: points (x, y) by name. Points that are not positive cannot be shown."""
+    colors = dict(zip(curves, COLORS))
     curves = {name: [point for point in points if min(point) > 0] for name, points in curves.items()}
     curves = {name: points for name, points in curves.items() if points}
     x = Axis([point[0] for points in curves.values() for point in points], LEFT, WIDTH - RIGHT)
     y = Axis([point[1] for points in curves.values() for point in points], HEIGHT - BOTTOM, TOP)
     parts = _frame(x, y, x_label, y_label)
     labels = _spread({name: y.at(points[-1][1]) + 4 for name, points in curves.items()})
-    for (name, points), color in zip(curves.items(), COLORS):
+    for name, points in curves.items():
+        color = colors[name]
         places = [(x.at(point[0]), y.at(point[1])) for point in points]
         path = "L".join(f"{px:.1f} {py:.1f}" for px, py in places)
         parts.append(f"<path class='line' stroke='{color}' d='M{path}'/>")
