@@ -12,6 +12,7 @@
 #include "exit_codes.hpp"
 #include "isophote/error.hpp"
 #include "isophote/film.hpp"
+#include "rendering/bias_ledger.hpp"
 #include "rendering/receipt.hpp"
 #include "rendering/render_report.hpp"
 
@@ -103,7 +104,9 @@ public:
     image.attributes["isophote.sampleRange"] = textOf(ranges_);
     image.attributes["isophote.error"] = errorText(film.error());
     image.attributes["isophote.status"] = status_.dump();
-    image.attributes["isophote.bias"] = bias_.dump();
+    Json ledger = bias_;
+    enterAccount(biasAccount(image), ledger);
+    image.attributes["isophote.bias"] = ledger.dump();
     image.renderSeconds = seconds_;
     storeSums(image, sums_);
     return image;

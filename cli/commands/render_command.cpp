@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -122,12 +121,6 @@ void countSamples(const Image& image, const SampleRange& asked, RenderReport& re
   report.samples = {asked.first, asked.first + static_cast<uint32_t>(*most)};
 }
 
-double channelMean(const Image& image, const std::string& name) {
-  const Channel* channel = image.find(name);
-  if (channel == nullptr || channel->values.empty()) return 0;
-  return std::accumulate(channel->values.begin(), channel->values.end(), 0.0) / double(channel->values.size());
-}
-
 void refuseAdaptive(const RenderOptions& options) {
   if (!options.adaptive) return;
   if (options.sampleRange) throw UsageError("--adaptive: such samples cannot be merged, leave out --sample-range");
@@ -149,18 +142,6 @@ StopRule sharedOut(StopRule rule, const AdaptivePlan& plan) {
   const auto rounds = static_cast<uint32_t>(std::lround(left / plan.allocation.samplesPerPixel / kRound));
   rule.samples.last = kRound * std::max(rounds, 1u);
   return rule;
-}
-
-/// The mean of three channels: R, G, B after `prefix`.
-glm::dvec3 colorMean(const Image& image, const std::string& prefix) {
-  return {channelMean(image, prefix + "R"), channelMean(image, prefix + "G"), channelMean(image, prefix + "B")};
-}
-
-/// What settings took from the image, and what they left.
-void accountForBias(const Image& image, RenderReport& report) {
-  report.kept = colorMean(image, "");
-  report.clamped = colorMean(image, "clamped.");
-  if (image.find("beyond.R") != nullptr) report.beyond = colorMean(image, "beyond.");
 }
 
 void writeImages(const RenderOptions& options, const Image& image, bool environment) {
@@ -285,7 +266,7 @@ int runRender(const RenderOptions& options) {
   watch.lap();
   Image image = film.resolve();
   countSamples(image, report.rule.samples, report);
-  accountForBias(image, report);
+  report.bias = biasAccount(image);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);
   if (options.sampleRange) storeSums(image, film.sums()); // a shard, to be merged

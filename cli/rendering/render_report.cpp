@@ -98,15 +98,7 @@ Json figureOfMerit(const RenderResult& result) {
 /// The settings that bias the image, and the samples that were lost.
 Json ledgerJson(const RenderReport& report) {
   Json ledger = biasJson(report.settings);
-  const auto sum = [](const glm::dvec3& color) { return color.r + color.g + color.b; };
-  const double whole = sum(report.kept) + sum(report.clamped) + sum(report.beyond.value_or(glm::dvec3(0)));
-  const auto account = [&](Json& entry, const glm::dvec3& removed, const char* layer) {
-    entry["removed"] = {removed.r, removed.g, removed.b};
-    entry["removed_share"] = whole > 0 ? sum(removed) / whole : 0.0;
-    entry["layer"] = layer;
-  };
-  if (ledger.contains("clamp")) account(ledger["clamp"], report.clamped, "clamped.{R,G,B}");
-  if (ledger.contains("max-depth") && report.beyond) account(ledger["max-depth"], *report.beyond, "beyond.{R,G,B}");
+  enterAccount(report.bias, ledger);
   const StatusCounters& status = report.statistics.status;
   const uint64_t samples = report.statistics.primaryRays;
   const uint64_t lost = status.nonFinite + status.negative + status.clipped;

@@ -10,6 +10,7 @@
 #include "input/scene_source.hpp"
 #include "isophote/device.hpp"
 #include "isophote/path_tracer.hpp"
+#include "rendering/bias_ledger.hpp"
 #include "rendering/stop_rule.hpp"
 #include "setting_table.hpp"
 
@@ -44,9 +45,7 @@ struct RenderReport {
   uint32_t samplesPerPixel = 0; ///< that every pixel has at least
   uint64_t filmBytes = 0;
   PhaseSeconds seconds;
-  glm::dvec3 clamped{0};            ///< mean radiance that the clamp setting removed, R, G, B
-  std::optional<glm::dvec3> beyond; ///< that the depth limit left out, where it was measured
-  glm::dvec3 kept{0};               ///< mean radiance of the image
+  BiasAccount bias;
 };
 
 /// Schema 1.

@@ -117,9 +117,11 @@ private:
 
   void showProgress(SampleRange pass, const Progress& progress) {
     const double done = pass.first - rule_.samples.first + progress.fraction * (pass.last - pass.first);
-    if (secondsSince(errorAt_) > 1) { // costs a pass over the film
+    if (secondsSince(errorAt_) > std::max(1.0, kErrorPause * errorSeconds_)) { // costs a pass over the film
+      const Clock::time_point begun = Clock::now();
       error_ = film_.error(rule_.confidence);
       errorAt_ = Clock::now();
+      errorSeconds_ = secondsSince(begun);
     }
     RenderState state{.seconds = elapsed(), .rays = raysBefore_ + static_cast<double>(progress.rays), .error = error_};
     state.fraction = done / (rule_.samples.last - rule_.samples.first);
@@ -135,6 +137,8 @@ private:
     }
     progress_.show(state);
   }
+
+  static constexpr double kErrorPause = 50; ///< between two errors for the progress line, in times of what one takes
 
   [[nodiscard]] bool targetReached() const { return rule_.target && reached(rule_.errorTarget(), error_); }
   [[nodiscard]] bool timeUp() const { return rule_.seconds && elapsed() >= *rule_.seconds; }
@@ -155,6 +159,7 @@ private:
   double secondsBefore_ = 0; ///< of a render that this one goes on with
   Clock::time_point start_ = Clock::now();
   Clock::time_point errorAt_ = start_;
+  double errorSeconds_ = 0; ///< that it took then
   ErrorEstimate error_;
   std::vector<Look> looks_;
   Pace pace_;

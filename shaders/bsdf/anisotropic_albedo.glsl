@@ -3,36 +3,20 @@
 #ifndef ISOPHOTE_BSDF_ANISOTROPIC_ALBEDO_GLSL
 #define ISOPHOTE_BSDF_ANISOTROPIC_ALBEDO_GLSL
 
+#include "bsdf/table_cell.glsl"
 #include "shared/bsdf_constants.h"
 #include "shared/buffers.glsl"
 
-/// The four planes around a roughness and strength, and where the point lies between them.
-struct AnisotropicCell {
-  uint planes[4];
-  vec2 fraction;
-};
-
 /// @param table where the surface's table begins
 /// @param point roughness and strength, clamped to the table's ranges
-AnisotropicCell anisotropicCell(const SceneRef scene, const uint table, const vec2 point) {
+TableCell anisotropicCell(const SceneRef scene, const uint table, const vec2 point) {
   Vec2Ref items = Vec2Ref(scene.view.anisotropicAlbedo);
   const vec2 roughness = items.items[table];
   const vec2 strength = items.items[table + 1u];
   const uvec2 count = uvec2(roughness.x == roughness.y ? 1u : kAnisotropyRoughnessCount,
                             strength.x == strength.y ? 1u : kAnisotropyStrengthCount);
-  const vec2 low = vec2(roughness.x, strength.x);
-  const vec2 range = max(vec2(roughness.y, strength.y) - low, vec2(1e-9));
-  const vec2 position = clamp((point - low) / range, 0.0, 1.0) * vec2(count - 1u);
-  const uvec2 first = min(uvec2(position), count - 1u);
-  const uvec2 second = min(first + 1u, count - 1u);
-  const uint planes = table + kAnisotropyHeader;
-  AnisotropicCell cell;
-  cell.planes[0] = planes + (first.y * count.x + first.x) * kAnisotropyPlane;
-  cell.planes[1] = planes + (first.y * count.x + second.x) * kAnisotropyPlane;
-  cell.planes[2] = planes + (second.y * count.x + first.x) * kAnisotropyPlane;
-  cell.planes[3] = planes + (second.y * count.x + second.x) * kAnisotropyPlane;
-  cell.fraction = position - vec2(first);
-  return cell;
+  return tableCell(table + kAnisotropyHeader, kAnisotropyPlane, count, vec2(roughness.x, strength.x),
+                   vec2(roughness.y, strength.y), point);
 }
 
 /// Returns (A, B) for light leaving along w, linear in sqrt(mu), in the square root of the width that w sees, and in
@@ -40,7 +24,7 @@ AnisotropicCell anisotropicCell(const SceneRef scene, const uint table, const ve
 ///
 /// @param width alpha along x and y, the first not below the second
 /// Accuracy: see docs/bsdf.md, measured in tests/unit/anisotropic_albedo_test.cpp.
-vec2 anisotropicAlbedo(const SceneRef scene, const AnisotropicCell cell, const vec2 width, const vec3 w) {
+vec2 anisotropicAlbedo(const SceneRef scene, const TableCell cell, const vec2 width, const vec3 w) {
   const vec2 root = sqrt(width);
   const float seen = length(w.xy) > 0.0 ? sqrt(length(width * w.xy) / length(w.xy)) : root.x;
   const float azimuth = root.x > root.y ? clamp((seen - root.y) / (root.x - root.y), 0.0, 1.0) : 0.0;
@@ -57,15 +41,15 @@ vec2 anisotropicAlbedo(const SceneRef scene, const AnisotropicCell cell, const v
     values[i] = mix(mix(table.items[low], table.items[low + 1u], t.x),
                     mix(table.items[high], table.items[high + 1u], t.x), t.y);
   }
-  return mix(mix(values[0], values[1], cell.fraction.x), mix(values[2], values[3], cell.fraction.x), cell.fraction.y);
+  return mixPlanes(values, cell.fraction);
 }
 
 /// Returns the cosine-weighted mean of (A, B) over the hemisphere.
-vec2 anisotropicMeanAlbedo(const SceneRef scene, const AnisotropicCell cell) {
+vec2 anisotropicMeanAlbedo(const SceneRef scene, const TableCell cell) {
   Vec2Ref table = Vec2Ref(scene.view.anisotropicAlbedo);
   vec2 means[4];
   for (uint i = 0u; i < 4u; ++i) means[i] = table.items[cell.planes[i] + kAnisotropyMean];
-  return mix(mix(means[0], means[1], cell.fraction.x), mix(means[2], means[3], cell.fraction.x), cell.fraction.y);
+  return mixPlanes(means, cell.fraction);
 }
 
 #endif

@@ -17,7 +17,7 @@ float albedoAlpha(const MetallicRoughness m) { return isMirror(m) ? 0.0 : m.alph
 /// Returns (A, B) of the facets for light leaving along w, |w.z| the cosine.
 vec2 facetAlbedo(const SceneRef scene, const MetallicRoughness m, const vec3 w) {
   if (kHasAnisotropy && m.anisotropicAlbedo != kInvalidIndex) {
-    const AnisotropicCell cell = anisotropicCell(scene, m.anisotropicAlbedo, m.grain);
+    const TableCell cell = anisotropicCell(scene, m.anisotropicAlbedo, m.grain);
     return anisotropicAlbedo(scene, cell, m.width, vec3(w.xy, abs(w.z)));
   }
   return isotropicAlbedo(scene, 0u, abs(w.z), albedoAlpha(m));
@@ -31,7 +31,7 @@ vec2 facetMeanAlbedo(const SceneRef scene, const MetallicRoughness m) {
   return isotropicMeanAlbedo(scene, 0u, albedoAlpha(m));
 }
 
-FilmCell coatFilmCell(const SceneRef scene, const MetallicRoughness m) {
+TableCell coatFilmCell(const SceneRef scene, const MetallicRoughness m) {
   return filmCell(scene, m.filmAlbedo, vec2(m.film.thickness, sqrt(albedoAlpha(m))));
 }
 

@@ -19,15 +19,16 @@ const bool kHasFarSide = kHasTransmission || kHasDiffuseTransmission;
 struct BaseValue {
   vec3 facets;         // of microfacets, scattering between opaque ones included
   vec3 diffuse;        // of the diffuse lobe, and scattering between facets of glass
-  float pdfSolidAngle; // of sampleBase, per steradian of wi
+  float pdfSolidAngle; // of drawBase, per steradian of wi
 };
 
 /// Of the continuous lobes. f scatters radiance: across a boundary of index ratio eta it carries the factor 1 / eta^2.
 struct BsdfValue {
   vec3 fCos;           // f |cos wi|
-  float pdfSolidAngle; // of sampleBsdf, per steradian of wi
+  float pdfSolidAngle; // of drawBsdf, per steradian of wi
 };
 
+/// A direction of scattering. The functions draw… leave the weight and density of a continuous one to weighed().
 struct BsdfSample {
   vec3 wiLocal;
   vec3 weight;         // f |cos wi| / pdf over all continuous lobes; for the delta lobe reflectance / its probability
@@ -76,20 +77,30 @@ BaseValue evaluateFacetTransmission(const MetallicRoughness m, const float proba
                                     const vec3 wiLocal) {
   const vec2 width = m.width;
   const vec3 above = vec3(wiLocal.xy, -wiLocal.z);
-  const float visibility = facetVisibility(woLocal, above, width) * above.z;
+  vec3 wm;
+  float cosine;   // between wo and wm
+  float jacobian; // times eta^2: steradians of wm per steradian of wi
   if (m.thinWalled) {
     const vec3 sum = woLocal + above;
     const float twoCosine = length(sum);
-    const vec3 wm = sum / twoCosine;
-    const FacetScattering facet = scatterAtFacet(m, 0.5 * twoCosine);
-    return BaseValue(facet.transmitted * (facetD(wm, width) * visibility), vec3(0.0),
-                     probability * (1.0 - facet.reflectedShare) * pdfVisibleReflection(woLocal, wm, width));
+    wm = sum / twoCosine;
+    cosine = 0.5 * twoCosine;
+  } else {
+    const RefractingFacet refracting = refractingFacet(woLocal, wiLocal, m.eta);
+    if (!refracting.valid) return noScattering();
+    wm = refracting.wm;
+    cosine = refracting.cosO;
+    jacobian = refracting.jacobian;
   }
-  const RefractingFacet refracting = refractingFacet(woLocal, wiLocal, m.eta);
-  if (!refracting.valid) return noScattering();
-  const FacetScattering facet = scatterAtFacet(m, refracting.cosO);
-  const float shape = 4.0 * facetD(refracting.wm, width) * visibility * refracting.cosO * refracting.jacobian;
-  const float density = pdfVisibleNormal(woLocal, refracting.wm, width) * m.eta * m.eta * refracting.jacobian;
+  const FacetScattering facet = scatterAtFacet(m, cosine);
+  float shape = facetD(wm, width) * (facetVisibility(woLocal, above, width) * above.z);
+  float density;
+  if (m.thinWalled) {
+    density = pdfVisibleReflection(woLocal, wm, width);
+  } else {
+    shape *= 4.0 * cosine * jacobian;
+    density = pdfVisibleNormal(woLocal, wm, width) * m.eta * m.eta * jacobian;
+  }
   return BaseValue(facet.transmitted * shape, vec3(0.0), probability * (1.0 - facet.reflectedShare) * density);
 }
 
@@ -132,11 +143,12 @@ float lambertBehindProbability(const MetallicRoughness m) {
 
 /// Returns f |cos wi| and the sampling density of the continuous lobes of both sides; zeros where wo is below the
 /// surface.
-BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, const vec3 wiLocal) {
+/// @param shares baseShares of m and wo; of Lambert lobes alone nothing
+BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const BaseShares shares, const vec3 woLocal,
+                       const vec3 wiLocal) {
   const bool transmitted = kHasFarSide && wiLocal.z < 0.0;
   if (min(woLocal.z, transmitted ? -wiLocal.z : wiLocal.z) < kMinCosine) return noScattering();
   if (kHasSpecular) {
-    const BaseShares shares = baseShares(scene, m, woLocal);
     if (transmitted) return evaluateTransmission(scene, m, shares, woLocal, wiLocal);
     return evaluateReflection(scene, m, shares, woLocal, wiLocal);
   }
@@ -155,14 +167,21 @@ BaseValue evaluateBase(const SceneRef scene, const MetallicRoughness m, const ve
 
 BsdfSample absorbed() { return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0); }
 
-BsdfSample finishSample(const vec3 wiLocal, const BaseValue value, const float eta) {
-  const vec3 weight = value.pdfSolidAngle > 0.0 ? (value.facets + value.diffuse) / value.pdfSolidAngle : vec3(0.0);
-  return BsdfSample(wiLocal, weight, value.pdfSolidAngle, false, largest(weight) > 0.0, eta);
+BsdfSample drawnDirection(const vec3 wiLocal, const float eta) {
+  return BsdfSample(wiLocal, vec3(0.0), 0.0, false, true, eta);
+}
+
+/// A continuous sample weighed by all that may have drawn its direction.
+BsdfSample weighed(BsdfSample drawn, const BsdfValue value) {
+  drawn.pdfSolidAngle = value.pdfSolidAngle;
+  drawn.weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
+  drawn.valid = largest(drawn.weight) > 0.0;
+  return drawn;
 }
 
 // A direction to the other side through a facet of normal wm, where transmission was chosen.
-BsdfSample sampleFacetTransmission(const SceneRef scene, const MetallicRoughness m, const BaseShares shares,
-                                   const FacetScattering facet, const vec3 woLocal, const vec3 wm, const float cosine) {
+BsdfSample drawFacetTransmission(const MetallicRoughness m, const BaseShares shares, const FacetScattering facet,
+                                 const vec3 woLocal, const vec3 wm, const float cosine) {
   const float eta = refractedEta(m);
   if (transmitsDelta(m)) {
     const vec3 wi = m.thinWalled ? -woLocal : refractAbout(woLocal, wm, cosine, m.eta);
@@ -177,47 +196,48 @@ BsdfSample sampleFacetTransmission(const SceneRef scene, const MetallicRoughness
   } else {
     wi = refractAbout(woLocal, wm, cosine, m.eta);
   }
-  if (wi.z > -kMinCosine) return absorbed();
-  return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), eta);
+  return wi.z > -kMinCosine ? absorbed() : drawnDirection(wi, eta);
 }
 
-/// Samples a direction of scattering: the cosine lobe of either side or a visible facet by their shares of the albedo,
-/// at the facet reflection or transmission, weighed over all lobes.
-///
-/// @param uLobe in [0, 1), chooses the lobe
-/// @param u     in [0, 1)^2
-BsdfSample sampleBase(const SceneRef scene, const MetallicRoughness m, const vec3 woLocal, float uLobe, const vec2 u) {
-  if (woLocal.z < kMinCosine) return absorbed();
-  if (!kHasSpecular) {
-    vec3 wi = sampleCosineHemisphere(u);
-    const bool crosses = kHasDiffuseTransmission && uLobe < lambertBehindProbability(m);
-    if (crosses) wi.z = -wi.z;
-    return finishSample(wi, evaluateBase(scene, m, woLocal, wi), crosses ? m.behind.eta : 1.0);
+// A direction by a visible facet: its reflection, or its transmission.
+BsdfSample drawFromFacet(const MetallicRoughness m, const BaseShares shares, const vec3 woLocal, float uLobe,
+                         const vec2 u) {
+  vec3 wm = vec3(0.0, 0.0, 1.0);
+  if (!isMirror(m)) wm = sampleVisibleNormal(woLocal, m.width, u, shares.facetProbability, uLobe);
+  const float cosine = dot(woLocal, wm);
+  const FacetScattering facet = scatterAtFacet(m, cosine);
+  if (kHasTransmission && uLobe >= shares.facetProbability * facet.reflectedShare) {
+    return drawFacetTransmission(m, shares, facet, woLocal, wm, cosine);
   }
-  const BaseShares shares = baseShares(scene, m, woLocal);
-  vec3 wi;
-  if (uLobe >= shares.facetProbability) {
-    wi = sampleCosineHemisphere(u);
+  if (isMirror(m)) {
+    const vec3 weight = facet.reflected / (shares.facetProbability * facet.reflectedShare);
+    return BsdfSample(vec3(-woLocal.xy, woLocal.z), weight, 0.0, true, true, 1.0);
+  }
+  const vec3 wi = normalize(2.0 * cosine * wm - woLocal);
+  return wi.z < kMinCosine ? absorbed() : drawnDirection(wi, 1.0);
+}
+
+/// Draws a direction of scattering: the cosine lobe of either side or a visible facet by their shares of the albedo, at
+/// the facet reflection or transmission.
+///
+/// @param woLocal above the surface
+/// @param uLobe   in [0, 1), chooses the lobe
+/// @param u       in [0, 1)^2
+BsdfSample drawBase(const MetallicRoughness m, const BaseShares shares, const vec3 woLocal, const float uLobe,
+                    const vec2 u) {
+  if (kHasSpecular && uLobe < shares.facetProbability) return drawFromFacet(m, shares, woLocal, uLobe, u);
+  vec3 wi = sampleCosineHemisphere(u);
+  float eta = 1.0;
+  if (kHasSpecular) {
     if (kHasFarSide && uLobe < shares.facetProbability + shares.behindProbability) {
       wi.z = -wi.z;
-      return finishSample(wi, evaluateTransmission(scene, m, shares, woLocal, wi), broadEta(m));
+      eta = broadEta(m);
     }
-  } else {
-    vec3 wm = vec3(0.0, 0.0, 1.0);
-    if (!isMirror(m)) wm = sampleVisibleNormal(woLocal, m.width, u, shares.facetProbability, uLobe);
-    const float cosine = dot(woLocal, wm);
-    const FacetScattering facet = scatterAtFacet(m, cosine);
-    if (kHasTransmission && uLobe >= shares.facetProbability * facet.reflectedShare) {
-      return sampleFacetTransmission(scene, m, shares, facet, woLocal, wm, cosine);
-    }
-    if (isMirror(m)) {
-      const vec3 weight = facet.reflected / (shares.facetProbability * facet.reflectedShare);
-      return BsdfSample(vec3(-woLocal.xy, woLocal.z), weight, 0.0, true, true, 1.0);
-    }
-    wi = normalize(2.0 * cosine * wm - woLocal);
+  } else if (kHasDiffuseTransmission && uLobe < lambertBehindProbability(m)) {
+    wi.z = -wi.z;
+    eta = m.behind.eta;
   }
-  if (wi.z < kMinCosine) return absorbed();
-  return finishSample(wi, evaluateReflection(scene, m, shares, woLocal, wi), 1.0);
+  return drawnDirection(wi, eta);
 }
 
 #endif

@@ -33,7 +33,7 @@ struct BaseShares {
   vec3 coat;          // what the coat lets through to the diffuse lobe
   vec3 meanCoat;      // mean over directions
   GlassMultiple glass;
-  float facetProbability;  // of choosing a facet in sampleBase,
+  float facetProbability;  // of choosing a facet in drawBase,
   float behindProbability; // of choosing the cosine lobe of the other side; the rest: this side's
 };
 

@@ -68,8 +68,10 @@ vec3 sampleTechnique(const uint technique, const SurfaceBsdf bsdf, const vec3 wo
 }
 
 /// Returns f |cos wi| and the density of sampleDirection's continuous part.
-BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
-  BsdfValue value = evaluateBsdf(scene, bsdf, woLocal, wiLocal);
+/// @param at bsdfAtWo of wo
+BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const BsdfAtWo at, const vec3 woLocal,
+                            const vec3 wiLocal) {
+  BsdfValue value = evaluateBsdf(scene, bsdf, at, woLocal, wiLocal);
   if (kDirectionSampling == kDirectionsByLobe) return value;
   const float lobes = lobesShare(bsdf);
   value.pdfSolidAngle =
@@ -77,26 +79,37 @@ BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const 
   return value;
 }
 
+// By a technique alone.
+BsdfSample drawByTechnique(const SurfaceBsdf bsdf, const vec3 woLocal, const float uTechnique, const vec2 u) {
+  if (woLocal.z < kMinCosine) return absorbed();
+  const vec3 wi = sampleTechnique(kDirectionSampling, bsdf, woLocal, uTechnique, u);
+  return wi.z < kMinCosine ? absorbed() : drawnDirection(wi, 1.0);
+}
+
 /// Samples the direction in which a path goes on, weighed over everything that might have drawn it.
 ///
+/// @param at    bsdfAtWo of wo
 /// @param uLobe in [0, 1), chooses the technique and its lobe
 /// @param u     in [0, 1)^2
-BsdfSample sampleDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const float uLobe,
-                           const vec2 u) {
-  if (kDirectionSampling == kDirectionsByLobe) return sampleBsdf(scene, bsdf, woLocal, uLobe, u);
-  if (woLocal.z < kMinCosine) return absorbed();
-  const float lobes = lobesShare(bsdf);
-  if (uLobe < lobes) {
-    BsdfSample drawn = sampleBsdf(scene, bsdf, woLocal, uLobe / lobes, u);
-    if (drawn.delta) drawn.weight /= lobes;
-    if (drawn.delta || !drawn.valid) return drawn;
-    return weighed(drawn, evaluateDirection(scene, bsdf, woLocal, drawn.wiLocal));
+BsdfSample sampleDirection(const SceneRef scene, const SurfaceBsdf bsdf, const BsdfAtWo at, const vec3 woLocal,
+                           float uLobe, const vec2 u) {
+  float lobes = 1.0;
+  bool byLobes = true;
+  if (kDirectionSampling != kDirectionsByLobe) {
+    lobes = lobesShare(bsdf);
+    byLobes = uLobe < lobes;
+    uLobe = byLobes ? uLobe / lobes : min((uLobe - lobes) / (1.0 - lobes), 0.99999994);
   }
-  const float uTechnique = min((uLobe - lobes) / (1.0 - lobes), 0.99999994);
-  BsdfSample drawn = absorbed();
-  drawn.wiLocal = sampleTechnique(kDirectionSampling, bsdf, woLocal, uTechnique, u);
-  if (drawn.wiLocal.z < kMinCosine) return drawn;
-  return weighed(drawn, evaluateDirection(scene, bsdf, woLocal, drawn.wiLocal));
+  BsdfSample drawn;
+  if (byLobes) {
+    drawn = drawBsdf(scene, bsdf, at, woLocal, uLobe, u);
+    if (kDirectionSampling != kDirectionsByLobe && drawn.delta) drawn.weight /= lobes;
+  } else {
+    drawn = drawByTechnique(bsdf, woLocal, uLobe, u);
+  }
+  if (!drawn.valid) return drawn;
+  if ((kHasSpecular || kHasLayers) && drawn.delta) return drawn; // Lambert lobes have none
+  return weighed(drawn, evaluateDirection(scene, bsdf, at, woLocal, drawn.wiLocal));
 }
 
 #endif

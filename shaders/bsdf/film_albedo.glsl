@@ -3,40 +3,23 @@
 #ifndef ISOPHOTE_BSDF_FILM_ALBEDO_GLSL
 #define ISOPHOTE_BSDF_FILM_ALBEDO_GLSL
 
+#include "bsdf/table_cell.glsl"
 #include "shared/bsdf_constants.h"
 #include "shared/buffers.glsl"
 
-/// The four planes around a thickness and roughness, and where the point lies between them.
-struct FilmCell {
-  uint planes[4];
-  vec2 fraction;
-};
-
 /// @param table where the surface's table begins
 /// @param point thickness in nm and roughness, clamped to the table's ranges
-FilmCell filmCell(const SceneRef scene, const uint table, const vec2 point) {
+TableCell filmCell(const SceneRef scene, const uint table, const vec2 point) {
   Vec3Ref items = Vec3Ref(scene.view.filmAlbedo);
   const vec3 thickness = items.items[table];
   const vec3 roughness = items.items[table + 1u];
-  const uvec2 count = uvec2(thickness.z, roughness.z);
-  const vec2 low = vec2(thickness.x, roughness.x);
-  const vec2 range = max(vec2(thickness.y, roughness.y) - low, vec2(1e-9));
-  const vec2 position = clamp((point - low) / range, 0.0, 1.0) * vec2(count - 1u);
-  const uvec2 first = min(uvec2(position), count - 1u);
-  const uvec2 second = min(first + 1u, count - 1u);
-  const uint planes = table + kFilmHeader;
-  FilmCell cell;
-  cell.planes[0] = planes + (first.y * count.x + first.x) * kFilmPlane;
-  cell.planes[1] = planes + (first.y * count.x + second.x) * kFilmPlane;
-  cell.planes[2] = planes + (second.y * count.x + first.x) * kFilmPlane;
-  cell.planes[3] = planes + (second.y * count.x + second.x) * kFilmPlane;
-  cell.fraction = position - vec2(first);
-  return cell;
+  return tableCell(table + kFilmHeader, kFilmPlane, uvec2(thickness.z, roughness.z), vec2(thickness.x, roughness.x),
+                   vec2(thickness.y, roughness.y), point);
 }
 
 /// Returns the albedo, linear Rec.709, for light leaving at cosine mu, linear in sqrt(mu), thickness and roughness.
 /// Accuracy: see docs/bsdf-layers.md, measured in tests/unit/film_albedo_test.cpp.
-vec3 filmAlbedo(const SceneRef scene, const FilmCell cell, const float mu) {
+vec3 filmAlbedo(const SceneRef scene, const TableCell cell, const float mu) {
   const float position = sqrt(clamp(mu, 0.0, 1.0)) * float(kFilmMuCount - 1u);
   const uint column = min(uint(position), kFilmMuCount - 2u);
   Vec3Ref table = Vec3Ref(scene.view.filmAlbedo);
@@ -45,15 +28,15 @@ vec3 filmAlbedo(const SceneRef scene, const FilmCell cell, const float mu) {
     const uint at = cell.planes[i] + column;
     values[i] = mix(table.items[at], table.items[at + 1u], position - float(column));
   }
-  return mix(mix(values[0], values[1], cell.fraction.x), mix(values[2], values[3], cell.fraction.x), cell.fraction.y);
+  return mixPlanes(values, cell.fraction);
 }
 
 /// Returns the cosine-weighted mean of filmAlbedo over the hemisphere.
-vec3 filmMeanAlbedo(const SceneRef scene, const FilmCell cell) {
+vec3 filmMeanAlbedo(const SceneRef scene, const TableCell cell) {
   Vec3Ref table = Vec3Ref(scene.view.filmAlbedo);
   vec3 means[4];
   for (uint i = 0u; i < 4u; ++i) means[i] = table.items[cell.planes[i] + kFilmMuCount];
-  return mix(mix(means[0], means[1], cell.fraction.x), mix(means[2], means[3], cell.fraction.x), cell.fraction.y);
+  return mixPlanes(means, cell.fraction);
 }
 
 #endif

@@ -48,7 +48,7 @@ struct LayersAlong {
   vec3 broad;     // this direction's factor of the diffuse lobe
 };
 
-/// What does not depend on wi: the layers as seen from wo.
+/// The layers as seen from wo.
 struct LayersAtWo {
   Frame coatFrame;
   vec3 woCoat;
@@ -58,6 +58,12 @@ struct LayersAtWo {
   vec3 broad;             // the factor of the diffuse lobe that belongs to no direction
   float coatProbability;  // of sampling the coat
   float sheenProbability; // of sampling the sheen where not the coat; the rest is the base's
+};
+
+/// What does not depend on wi, and serves all directions from wo.
+struct BsdfAtWo {
+  BaseShares shares; // of facets and what is below them, where there are facets
+  LayersAtWo layers; // where there are layers
 };
 
 /// Maps a uniform number beyond `probability` back to [0, 1).
@@ -86,9 +92,8 @@ vec3 coatF0(const SurfaceBsdf bsdf, const vec3 reflected, const vec2 albedo, con
   return (reflected - f90 * albedo.y) / max(albedo.x, 1e-3);
 }
 
-LayerBase layerBase(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
+LayerBase layerBase(const SceneRef scene, const SurfaceBsdf bsdf, const BaseShares shares) {
   if (!kHasSpecular) return LayerBase(1.0, 0.0, 0.0, vec2(0.0), vec3(0.0), vec3(1.0));
-  const BaseShares shares = baseShares(scene, bsdf.base, woLocal);
   const float f90 =
       hasFilmAlbedo(bsdf.base) ? mix(bsdf.base.dielectricF90, 1.0, bsdf.base.film.amount) : bsdf.base.dielectricF90;
   const vec2 mean = facetMeanAlbedo(scene, bsdf.base);
@@ -167,9 +172,9 @@ vec3 meanLeftForDiffuse(const SceneRef scene, const SurfaceBsdf bsdf, const Laye
   return leftForDiffuse(returned, base.meanF0, base);
 }
 
-LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
+LayersAtWo layersAt(const SceneRef scene, const SurfaceBsdf bsdf, const BaseShares shares, const vec3 woLocal) {
   LayersAtWo at;
-  at.base = layerBase(scene, bsdf, woLocal);
+  at.base = layerBase(scene, bsdf, shares);
   at.cover = layerCover(bsdf);
   at.along = layersAlong(scene, bsdf, at.base, at.cover, woLocal);
   // In place of the coat's own transmissions, by which the base has multiplied its diffuse lobe.
@@ -253,9 +258,9 @@ void addLayerLobes(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtW
   }
 }
 
-BsdfValue evaluateLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
-                          const vec3 wiLocal) {
-  const BaseValue base = evaluateBase(scene, bsdf.base, woLocal, wiLocal);
+// The base's lobes through the layers, and the layers' own.
+BsdfValue underLayers(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const BaseValue base,
+                      const vec3 woLocal, const vec3 wiLocal) {
   LayersAlong along;
   const LayerPassage passage = passageThrough(scene, bsdf, at, wiLocal, along);
   BsdfValue value;
@@ -265,80 +270,55 @@ BsdfValue evaluateLayered(const SceneRef scene, const SurfaceBsdf bsdf, const La
   return value;
 }
 
+BsdfAtWo bsdfAtWo(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) {
+  BsdfAtWo at;
+  if (kHasSpecular) at.shares = baseShares(scene, bsdf.base, woLocal);
+  if (kHasLayers && hasLayers(bsdf)) at.layers = layersAt(scene, bsdf, at.shares, woLocal);
+  return at;
+}
+
 /// Returns f |cos wi| and the sampling density of the continuous lobes.
-BsdfValue evaluateBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
-  if (kHasLayers && hasLayers(bsdf)) {
-    if (min(woLocal.z, abs(wiLocal.z)) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
-    return evaluateLayered(scene, bsdf, layersAt(scene, bsdf, woLocal), woLocal, wiLocal);
-  }
-  const BaseValue base = evaluateBase(scene, bsdf.base, woLocal, wiLocal);
+/// @param at bsdfAtWo of wo
+BsdfValue evaluateBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const BsdfAtWo at, const vec3 woLocal,
+                       const vec3 wiLocal) {
+  const bool layered = kHasLayers && hasLayers(bsdf);
+  if (layered && min(woLocal.z, abs(wiLocal.z)) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
+  const BaseValue base = evaluateBase(scene, bsdf.base, at.shares, woLocal, wiLocal);
+  if (layered) return underLayers(scene, bsdf, at.layers, base, woLocal, wiLocal);
   return BsdfValue(base.facets + base.diffuse, base.pdfSolidAngle);
 }
 
-/// Returns f |cos wi| of the continuous lobes.
-vec3 evalBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
-  return evaluateBsdf(scene, bsdf, woLocal, wiLocal).fCos;
+BsdfSample drawFromCoat(const SurfaceBsdf bsdf, const LayersAtWo at, const float uLobe, const vec2 u) {
+  const vec3 wi = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u, uLobe / at.coatProbability));
+  if (wi.z < kMinCosine) return absorbed();
+  if (!coatIsMirror(bsdf.coat)) return drawnDirection(wi, 1.0);
+  const vec3 weight = vec3(bsdf.coat.amount * coatReflectance(at.woCoat.z) / at.coatProbability);
+  return BsdfSample(wi, weight, 0.0, true, true, 1.0);
 }
 
-/// Returns the density of sampleBsdf's continuous lobes, per steradian of wi, lobe probabilities included.
-float pdfBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
-  return evaluateBsdf(scene, bsdf, woLocal, wiLocal).pdfSolidAngle;
-}
-
-/// A continuous sample weighed by all that may have drawn its direction.
-BsdfSample weighed(BsdfSample drawn, const BsdfValue value) {
-  drawn.pdfSolidAngle = value.pdfSolidAngle;
-  drawn.weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
-  drawn.valid = max(drawn.weight.x, max(drawn.weight.y, drawn.weight.z)) > 0.0;
-  return drawn;
-}
-
-// The base's choice weighed anew: the layers dim it, and their lobes may have sampled it too.
-BsdfSample weighLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
-                        const BsdfSample drawn) {
-  return weighed(drawn, evaluateLayered(scene, bsdf, at, woLocal, drawn.wiLocal));
-}
-
-// One of three lobes, coat, sheen or base, by the probabilities in `at`.
-BsdfSample sampleLayered(const SceneRef scene, const SurfaceBsdf bsdf, const LayersAtWo at, const vec3 woLocal,
-                         float uLobe, const vec2 u) {
-  BsdfSample drawn = absorbed();
-  if (uLobe < at.coatProbability) {
-    drawn.wiLocal = toWorld(at.coatFrame, sampleCoat(bsdf.coat, at.woCoat, u, uLobe / at.coatProbability));
-    if (drawn.wiLocal.z < kMinCosine) return drawn;
-    if (!coatIsMirror(bsdf.coat)) return weighLayered(scene, bsdf, at, woLocal, drawn);
-    drawn.weight = vec3(bsdf.coat.amount * coatReflectance(at.woCoat.z) / at.coatProbability);
-    drawn.delta = true;
-    drawn.valid = true;
-    return drawn;
-  }
-  uLobe = choiceRemainder(uLobe, at.coatProbability);
-  if (uLobe < at.sheenProbability) {
-    drawn.wiLocal = sampleSheen(u);
-    if (drawn.wiLocal.z < kMinCosine) return drawn;
-    return weighLayered(scene, bsdf, at, woLocal, drawn);
-  }
-  drawn = sampleBase(scene, bsdf.base, woLocal, choiceRemainder(uLobe, at.sheenProbability), u);
-  if (drawn.delta) {
-    LayersAlong along;
-    drawn.weight *= passageThrough(scene, bsdf, at, drawn.wiLocal, along).narrow /
-                    ((1.0 - at.coatProbability) * (1.0 - at.sheenProbability));
-    return drawn;
-  }
-  // A direction that the base cannot scatter to is no loss where a layer can.
-  return drawn.pdfSolidAngle > 0.0 ? weighLayered(scene, bsdf, at, woLocal, drawn) : drawn;
-}
-
-/// Samples a direction of scattering, weighed over all lobes.
+/// Draws a direction of scattering: one of three lobes, coat, sheen or base, by the probabilities in `at`.
 ///
+/// @param at    bsdfAtWo of wo
 /// @param uLobe in [0, 1), chooses the lobe
 /// @param u     in [0, 1)^2
-BsdfSample sampleBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const float uLobe,
-                      const vec2 u) {
-  if (kHasLayers && hasLayers(bsdf) && woLocal.z >= kMinCosine) {
-    return sampleLayered(scene, bsdf, layersAt(scene, bsdf, woLocal), woLocal, uLobe, u);
+BsdfSample drawBsdf(const SceneRef scene, const SurfaceBsdf bsdf, const BsdfAtWo at, const vec3 woLocal, float uLobe,
+                    const vec2 u) {
+  if (woLocal.z < kMinCosine) return absorbed();
+  const bool layered = kHasLayers && hasLayers(bsdf);
+  const LayersAtWo layers = at.layers;
+  if (layered) {
+    if (uLobe < layers.coatProbability) return drawFromCoat(bsdf, layers, uLobe, u);
+    uLobe = choiceRemainder(uLobe, layers.coatProbability);
+    if (uLobe < layers.sheenProbability) return drawnDirection(sampleSheen(u), 1.0);
+    uLobe = choiceRemainder(uLobe, layers.sheenProbability);
   }
-  return sampleBase(scene, bsdf.base, woLocal, uLobe, u);
+  BsdfSample drawn = drawBase(bsdf.base, at.shares, woLocal, uLobe, u);
+  if (layered && drawn.delta) {
+    LayersAlong along;
+    drawn.weight *= passageThrough(scene, bsdf, layers, drawn.wiLocal, along).narrow /
+                    ((1.0 - layers.coatProbability) * (1.0 - layers.sheenProbability));
+  }
+  return drawn;
 }
 
 #endif

@@ -26,7 +26,7 @@ const uint kChannelPair = (1u << 29) - 1u;
 
 // A light's contribution at the surface, put up for the visibility test.
 void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
-                       const Frame frame, const vec3 woLocal, const MediumCrossing crossing,
+                       const BsdfAtWo at, const Frame frame, const vec3 woLocal, const MediumCrossing crossing,
                        const LightReceiver receiver, const SampleKey key, const uint pair, const uint slot,
                        const vec3 beta) {
   const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
@@ -34,7 +34,7 @@ void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const Sur
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
   if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasFarSide && wiLocal.z < 0.0)) return;
-  const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, woLocal, wiLocal);
+  const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, at, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
   const bool glass = isGlass(material.bsdf);
@@ -76,11 +76,11 @@ float etaScaleBehind(const uint slot, const float eta) {
 }
 
 // Continues the path by a BSDF sample; false where it ends.
-bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material, const Frame frame,
-                  const vec3 woLocal, const MediumCrossing crossing, const SampleKey key, const uint pair,
-                  const uint slot, inout PathState path) {
+bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material, const BsdfAtWo at,
+                  const Frame frame, const vec3 woLocal, const MediumCrossing crossing, const SampleKey key,
+                  const uint pair, const uint slot, inout PathState path) {
   const vec2 choice = sample2d(key, pair + 3u);
-  const BsdfSample bsdf = sampleDirection(scene, material.bsdf, woLocal, choice.x, sample2d(key, pair + 2u));
+  const BsdfSample bsdf = sampleDirection(scene, material.bsdf, at, woLocal, choice.x, sample2d(key, pair + 2u));
   if (!bsdf.valid) return false;
   const vec3 wi = toWorld(frame, bsdf.wiLocal);
   if (bsdf.wiLocal.z * dot(surface.ng, wi) <= 0.0) return false;
@@ -196,14 +196,15 @@ void main() {
     const Frame frame = shadingFrame(scene, surface, ns);
     const vec3 woLocal = toLocal(frame, wo);
     if (kHasClearcoat) setClearcoatNormal(material, scene, surface, wo, frame);
+    const BsdfAtWo at = bsdfAtWo(scene, material.bsdf, woLocal);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
     if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
       // Lights on the far side of what lets light through are sampled too.
       const LightReceiver receiver = LightReceiver(surface.p, transmits(material.bsdf) ? vec3(0.0) : ns);
       if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
-      sampleDirectLight(scene, surface, material, frame, woLocal, crossing, receiver, key, pair, slot, path.beta);
+      sampleDirectLight(scene, surface, material, at, frame, woLocal, crossing, receiver, key, pair, slot, path.beta);
     }
-    alive = continuePath(scene, surface, material, frame, woLocal, crossing, key, pair, slot, path);
+    alive = continuePath(scene, surface, material, at, frame, woLocal, crossing, key, pair, slot, path);
   }
   PathRef(pc.paths).items[slot] = path;
   if (alive) {

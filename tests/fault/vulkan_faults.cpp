@@ -15,7 +15,8 @@ bool strikes(const char* name, VkResult result) {
     if (std::strcmp(name, "vkQueueSubmit2") == 0) ++faults.submitsAfterFailed;
     return false;
   }
-  if (++faults.calls != failing) return false;
+  faults.calls.emplace_back(name);
+  if (faults.calls.size() != failing) return false;
   faults.failed = name;
   faults.result = result;
   return true;

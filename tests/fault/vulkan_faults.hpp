@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <vulkan/vulkan.h>
 
@@ -11,7 +12,7 @@ namespace isophote::fault {
 
 /// What the calls since the last arm() came to.
 struct VulkanFaults {
-  uint64_t calls = 0;              ///< that could have failed
+  std::vector<std::string> calls;  ///< functions that could have failed, in the order of their calls up to the fault
   std::string failed;              ///< the function that did; empty: none
   VkResult result = VK_SUCCESS;    ///< what it returned
   uint64_t submitsAfterFailed = 0; ///< vkQueueSubmit2, after the fault

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bsdf/surface_bsdf.glsl"
+#include "bsdf/direction_sampling.glsl"
 #include "glsl/bsdf_case.h"
 #define PROBE_INPUT BsdfCase
 #define PROBE_OUTPUT BsdfResult
@@ -24,14 +24,17 @@ BsdfResult probe(const BsdfCase c) {
                            thinWalled);
   }
   BsdfResult result;
-  result.fCos = evalBsdf(scene, m, c.wo, c.wi);
-  result.pdf = pdfBsdf(scene, m, c.wo, c.wi);
-  const BsdfSample drawn = sampleBsdf(scene, m, c.wo, c.uLobe, c.u);
+  const BsdfAtWo at = bsdfAtWo(scene, m, c.wo);
+  const BsdfValue value = evaluateBsdf(scene, m, at, c.wo, c.wi);
+  result.fCos = value.fCos;
+  result.pdf = value.pdfSolidAngle;
+  const BsdfSample drawn = sampleDirection(scene, m, at, c.wo, c.uLobe, c.u);
   result.sampledWi = drawn.wiLocal;
   result.weight = drawn.weight;
   result.sampledPdf = drawn.pdfSolidAngle;
-  result.fCosSampled = evalBsdf(scene, m, c.wo, drawn.wiLocal);
-  result.pdfAtSampled = pdfBsdf(scene, m, c.wo, drawn.wiLocal);
+  const BsdfValue again = evaluateBsdf(scene, m, at, c.wo, drawn.wiLocal);
+  result.fCosSampled = again.fCos;
+  result.pdfAtSampled = again.pdfSolidAngle;
   result.flags = (drawn.delta ? kBsdfDelta : 0u) | (drawn.valid ? kBsdfValid : 0u);
   result.eta = drawn.eta;
   return result;

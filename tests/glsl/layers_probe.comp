@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "bsdf/surface_bsdf.glsl"
+#include "bsdf/direction_sampling.glsl"
 #include "glsl/layers_case.h"
 #define PROBE_INPUT LayersCase
 #define PROBE_OUTPUT LayersResult
@@ -19,14 +19,15 @@ LayersResult probe(const LayersCase c) {
   bsdf.coat = Clearcoat(c.coat, c.coatRoughness, c.coatNormal);
   bsdf.sheen = Sheen(c.sheenColor, c.sheenRoughness);
   LayersResult result;
-  const BsdfValue value = evaluateBsdf(scene, bsdf, c.wo, c.wi);
+  const BsdfAtWo at = bsdfAtWo(scene, bsdf, c.wo);
+  const BsdfValue value = evaluateBsdf(scene, bsdf, at, c.wo, c.wi);
   result.fCos = value.fCos;
   result.pdf = value.pdfSolidAngle;
-  const BsdfSample drawn = sampleBsdf(scene, bsdf, c.wo, c.uLobe, c.u);
+  const BsdfSample drawn = sampleDirection(scene, bsdf, at, c.wo, c.uLobe, c.u);
   result.sampledWi = drawn.wiLocal;
   result.weight = drawn.weight;
   result.sampledPdf = drawn.pdfSolidAngle;
-  const BsdfValue again = evaluateBsdf(scene, bsdf, c.wo, drawn.wiLocal);
+  const BsdfValue again = evaluateBsdf(scene, bsdf, at, c.wo, drawn.wiLocal);
   result.fCosSampled = again.fCos;
   result.pdfAtSampled = again.pdfSolidAngle;
   result.flags = (drawn.delta ? kLayersDelta : 0u) | (drawn.valid ? kLayersValid : 0u);

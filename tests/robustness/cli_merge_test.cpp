@@ -45,6 +45,22 @@ TEST_F(CliMerge, ShardsInAnyOrderAreTheWholeRender) {
   }
 }
 
+TEST_F(CliMerge, TheLedgerIsThatOfTheWholeImage) {
+  const std::vector<std::string> biased = {"--env-color", "1,2,3", "--set", "clamp=0.5"};
+  const auto with = [&](std::vector<std::string> samples) {
+    samples.insert(samples.end(), biased.begin(), biased.end());
+    return samples;
+  };
+  render("whole.exr", with({"--spp", "24"}));
+  render("a.exr", with({"--sample-range", "0:8"}));
+  render("b.exr", with({"--sample-range", "8:24"}));
+  ASSERT_EQ(merge({"a.exr", "b.exr"}, "merged.exr").exitCode, 0);
+  const std::string ledger = readExr(file("whole.exr")).attributes.at("isophote.bias");
+  EXPECT_NE(ledger.find("removed_share"), std::string::npos);
+  EXPECT_NE(ledger, readExr(file("a.exr")).attributes.at("isophote.bias"));
+  EXPECT_EQ(ledger, readExr(file("merged.exr")).attributes.at("isophote.bias"));
+}
+
 TEST_F(CliMerge, WhatDoesNotBelongTogetherIsRefused) {
   render("a.exr", {"--sample-range", "0:4"});
   render("overlap.exr", {"--sample-range", "3:8"});

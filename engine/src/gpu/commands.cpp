@@ -35,8 +35,6 @@ struct CommandStream::Impl {
 };
 
 CommandStream::Impl::~Impl() {
-  // After a failed wait the device may still be at work on what is destroyed below.
-  if (device.lost) vkDeviceWaitIdle(device.handle);
   if (queries) vkDestroyQueryPool(device.handle, queries, nullptr);
   if (fence) vkDestroyFence(device.handle, fence, nullptr);
   if (pool) vkDestroyCommandPool(device.handle, pool, nullptr);

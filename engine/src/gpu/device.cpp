@@ -103,6 +103,8 @@ void Device::Impl::submitAndWait(VkCommandBuffer commands, VkFence fence, double
   VkResult result = vkQueueSubmit2(queue, 1, &submit, fence);
   if (result == VK_SUCCESS) {
     result = vkWaitForFences(handle, 1, &fence, VK_TRUE, static_cast<uint64_t>(timeoutSeconds * 1e9));
+    // After a failed wait the device may still be at work on what the caller destroys when this throws.
+    if (result != VK_SUCCESS) vkDeviceWaitIdle(handle);
   }
   if (result == VK_TIMEOUT) {
     lost = true;

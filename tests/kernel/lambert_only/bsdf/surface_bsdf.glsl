@@ -32,19 +32,35 @@ const bool kHasFarSide = false;
 bool isGlass(const SurfaceBsdf bsdf) { return false; }
 bool transmits(const SurfaceBsdf bsdf) { return false; }
 
-BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const vec3 wiLocal) {
+struct BsdfAtWo {
+  uint nothing;
+};
+
+BsdfAtWo bsdfAtWo(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal) { return BsdfAtWo(0u); }
+
+BsdfValue evaluateDirection(const SceneRef scene, const SurfaceBsdf bsdf, const BsdfAtWo at, const vec3 woLocal,
+                            const vec3 wiLocal) {
   if (min(woLocal.z, wiLocal.z) < kMinCosine) return BsdfValue(vec3(0.0), 0.0);
   const float density = kInvPi * wiLocal.z;
   return BsdfValue(bsdf.reflectance * density, density);
 }
 
-BsdfSample sampleDirection(const SceneRef scene, const SurfaceBsdf bsdf, const vec3 woLocal, const float uLobe,
-                           const vec2 u) {
-  if (woLocal.z < kMinCosine) return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0);
-  const vec3 wi = sampleCosineHemisphere(u);
-  const BsdfValue value = evaluateDirection(scene, bsdf, woLocal, wi);
-  const vec3 weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
-  return BsdfSample(wi, weight, value.pdfSolidAngle, false, max(weight.x, max(weight.y, weight.z)) > 0.0, 1.0);
+BsdfSample absorbed() { return BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, false, false, 1.0); }
+
+BsdfSample drawBsdf(const vec3 woLocal, const vec2 u) {
+  if (woLocal.z < kMinCosine) return absorbed();
+  return BsdfSample(sampleCosineHemisphere(u), vec3(0.0), 0.0, false, true, 1.0);
+}
+
+BsdfSample sampleDirection(const SceneRef scene, const SurfaceBsdf bsdf, const BsdfAtWo at, const vec3 woLocal,
+                           const float uLobe, const vec2 u) {
+  BsdfSample drawn = drawBsdf(woLocal, u);
+  if (!drawn.valid) return drawn;
+  const BsdfValue value = evaluateDirection(scene, bsdf, at, woLocal, drawn.wiLocal);
+  drawn.pdfSolidAngle = value.pdfSolidAngle;
+  drawn.weight = value.pdfSolidAngle > 0.0 ? value.fCos / value.pdfSolidAngle : vec3(0.0);
+  drawn.valid = max(drawn.weight.x, max(drawn.weight.y, drawn.weight.z)) > 0.0;
+  return drawn;
 }
 
 #endif
