@@ -150,15 +150,22 @@ std::vector<SettingEntry> makeTable() {
             &E::clamp),
       number({"seed", "0 to 18446744073709551615", "0", "0", "another seed is another, independent image"}, estimator,
              &E::seed, ~uint64_t{0}, nullptr, uint64_t{0}),
-      number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", true}, execution,
-             &X::pathPoolSize, 1u << 22, "auto", uint32_t{0}),
-      number({"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup", true}, execution,
-             &X::workgroupSize, 1024, "auto", uint32_t{0}),
+      number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", SettingKind::Execution},
+             execution, &X::pathPoolSize, 1u << 22, "auto", uint32_t{0}),
+      number(
+          {"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup", SettingKind::Execution},
+          execution, &X::workgroupSize, 1024, "auto", uint32_t{0}),
       choice({"depth-ledger", "on, off", "on", "on",
-              "with a max-depth, follow one in eight paths beyond it to measure what it leaves out", true},
+              "with a max-depth, follow one in eight paths beyond it to measure what it leaves out",
+              SettingKind::Execution},
              execution, &X::depthLedger, onOff),
-      choice({"specialize", "on, off", "on", "on", "kernels without what the scene does not use", true}, execution,
-             &X::specialize, onOff),
+      choice(
+          {"specialize", "on, off", "on", "on", "kernels without what the scene does not use", SettingKind::Execution},
+          execution, &X::specialize, onOff),
+      choice({"denoiser", "none, atrous", "none", "atrous",
+              "a filter of the finished image that trades noise for bias, written as the layer denoised.{R,G,B}",
+              SettingKind::Layer},
+             &Settings::layers, &LayerSettings::denoiser, {{"none", Denoiser::None}, {"atrous", Denoiser::Atrous}}),
   };
 }
 
@@ -192,10 +199,10 @@ void setSetting(Settings& settings, const std::string& assignment) {
   }
 }
 
-nlohmann::ordered_json settingsJson(const Settings& settings, bool execution) {
+nlohmann::ordered_json settingsJson(const Settings& settings, SettingKind kind) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const SettingEntry& entry : settingTable()) {
-    if (entry.execution == execution) json[entry.key] = entry.get(settings);
+    if (entry.kind == kind) json[entry.key] = entry.get(settings);
   }
   return json;
 }
@@ -228,6 +235,11 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
     json["fresnel"] = {{"value", "schlick"},
                        {"exact", "gltf"},
                        {"leaves_out", "the difference of glass's reflectance from Schlick's approximation"}};
+  }
+  if (settings.layers.denoiser != Denoiser::None) {
+    json["denoiser"] = {{"value", "atrous"},
+                        {"exact", "none"},
+                        {"leaves_out", "of the layer denoised.{R,G,B} alone: detail that noise would explain"}};
   }
   return json;
 }

@@ -7,22 +7,36 @@
 
 #include <nlohmann/json.hpp>
 
+#include "isophote/denoise.hpp"
 #include "isophote/settings.hpp"
 
 namespace isophote::cli {
 
+/// What is made of the finished image, as layers beside it.
+struct LayerSettings {
+  Denoiser denoiser = Denoiser::None;
+};
+
 struct Settings {
   EstimatorSettings estimator;
   ExecutionSettings execution;
+  LayerSettings layers;
+};
+
+enum class SettingKind {
+  Estimator, ///< changes the samples
+  Execution, ///< changes how the work is cut, never a bit of the image
+  Layer      ///< adds a layer, and changes no other
 };
 
 struct SettingEntry {
   const char* key;
   const char* values; ///< what it takes
-  const char* exact;  ///< the unbiased value; for execution settings the default, as none changes the image
-  const char* fast;   ///< a cheaper one; equal to `exact` where nothing is traded
+  const char*
+      exact;        ///< the unbiased value; for other kinds than the estimator's the default, as none changes the image
+  const char* fast; ///< a cheaper one; equal to `exact` where nothing is traded
   const char* description;
-  bool execution;                                         ///< never changes the image
+  SettingKind kind;
   std::function<void(Settings&, const std::string&)> set; ///< @throws UsageError
   std::function<std::string(const Settings&)> get;
   std::vector<std::string> trials; ///< values that `isophote trade` compares
@@ -35,8 +49,8 @@ void setSetting(Settings& settings, const std::string& key, const std::string& v
 /// `key=value`
 void setSetting(Settings& settings, const std::string& assignment);
 
-/// {"sampler": "sobol", …}
-[[nodiscard]] nlohmann::ordered_json settingsJson(const Settings& settings, bool execution);
+/// Those of one kind: {"sampler": "sobol", …}
+[[nodiscard]] nlohmann::ordered_json settingsJson(const Settings& settings, SettingKind kind);
 
 /// The ledger: each biased setting that is on, with its value and what it leaves out; {} for an unbiased image.
 [[nodiscard]] nlohmann::ordered_json biasJson(const Settings& settings);

@@ -12,7 +12,7 @@ SOURCES = ("*.cpp", "*.hpp", "*.h")
 
 # Folders of engine/src that a folder of engine/src may include besides itself.
 LOWER = {
-    "scene": set(), "accel": set(), "io": set(), "gpu": set(),
+    "scene": set(), "accel": set(), "io": set(), "gpu": set(), "denoise": set(),
     "upload": {"scene", "accel", "io", "gpu"},
     "render": {"upload", "scene", "accel", "io", "gpu"},
     "estimate": {"upload", "scene", "accel", "io"},

@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "exit_codes.hpp"
 #include "isophote/compare.hpp"
+#include "isophote/denoise.hpp"
 #include "isophote/error.hpp"
 
 namespace isophote::cli {
@@ -20,6 +21,7 @@ struct CompareOptions {
   std::string reference;
   std::string heatmap;
   std::string zMap;
+  bool denoised = false;
   bool json = false;
 };
 
@@ -105,7 +107,8 @@ void printText(const Comparison& comparison) {
 int runCompare(const CompareOptions& options) {
   if (!options.heatmap.empty()) checkWritable(options.heatmap);
   if (!options.zMap.empty()) checkWritable(options.zMap);
-  const Image test = readExr(options.test);
+  const Image image = readExr(options.test);
+  const Image test = options.denoised ? denoisedImage(image) : image;
   const Comparison comparison = compareImages(test, readExr(options.reference));
   if (!options.heatmap.empty()) writeHeatmap(options.heatmap, comparison.flipMap, test.width, test.height);
   if (!options.zMap.empty()) {
@@ -127,6 +130,8 @@ void addCompareCommand(CLI::App& program, Action& action) {
       ->add_option("REFERENCE", options->reference,
                    "OpenEXR image of the same size; relative errors are relative to it")
       ->required();
+  command->add_flag("--denoised", options->denoised,
+                    "Compare TEST's denoised layer, of whose error nothing is known: no verdict");
   command->add_flag("--json", options->json, "Machine-readable");
   command->add_option("--heatmap", options->heatmap, "Write the FLIP error map as PNG, black for no difference")
       ->type_name("F.png");

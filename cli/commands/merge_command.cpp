@@ -10,6 +10,7 @@
 
 #include "commands/commands.hpp"
 #include "exit_codes.hpp"
+#include "isophote/denoise.hpp"
 #include "isophote/error.hpp"
 #include "isophote/film.hpp"
 #include "rendering/bias_ledger.hpp"
@@ -25,6 +26,7 @@ struct MergeOptions {
   std::vector<std::string> inputs;
   std::string output;
   std::string device;
+  LayerSettings layers;
   bool quiet = false;
 };
 
@@ -96,7 +98,7 @@ public:
     seconds_ += image.renderSeconds;
   }
 
-  [[nodiscard]] Image result(const Device& device) const {
+  [[nodiscard]] Image result(const Device& device, const LayerSettings& layers) const {
     Film film(device, sums_.options);
     film.restore(sums_);
     Image image = film.resolve();
@@ -104,7 +106,9 @@ public:
     image.attributes["isophote.sampleRange"] = textOf(ranges_);
     image.attributes["isophote.error"] = errorText(film.error());
     image.attributes["isophote.status"] = status_.dump();
+    if (layers.denoiser != Denoiser::None) addDenoised(image);
     Json ledger = bias_;
+    ledger.update(biasJson({.layers = layers}));
     enterAccount(biasAccount(image), ledger);
     image.attributes["isophote.bias"] = ledger.dump();
     image.renderSeconds = seconds_;
@@ -135,7 +139,7 @@ int runMerge(const MergeOptions& options) {
   for (const std::string& file : options.inputs) merger.add(file);
   const VulkanInstance instance({.validation = false});
   const Device device(instance, {.selector = options.device});
-  const Image image = merger.result(device);
+  const Image image = merger.result(device, options.layers);
   writeExr(options.output, image);
   if (!options.quiet) {
     fmt::print("{} images, samples {}: {}\n", options.inputs.size(), image.attributes.at("isophote.sampleRange"),
@@ -154,6 +158,9 @@ void addMergeCommand(CLI::App& program, Action& action) {
       ->expected(1, -1);
   command->add_option("-o,--output", options->output, "Image to write, .exr")->type_name("F")->required();
   command->add_option("--device", options->device, "Vulkan device, as for render")->type_name("NAME|INDEX|cpu");
+  command->add_flag_callback(
+      "--denoise", [options] { options->layers.denoiser = Denoiser::Atrous; },
+      "Add the layer denoised.{R,G,B}, as `isophote render --denoise`");
   command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
   command->footer(R"(Examples:
   isophote render scene.glb -o a.exr --sample-range 0:512         on one machine

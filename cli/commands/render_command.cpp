@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "exit_codes.hpp"
 #include "input/scene_files.hpp"
+#include "isophote/denoise.hpp"
 #include "isophote/error.hpp"
 #include "rendering/interrupt.hpp"
 #include "rendering/render_options.hpp"
@@ -31,6 +32,7 @@ constexpr const char* kExamples = R"(Examples:
   isophote render scene.glb -o part.exr --sample-range 64:128             the second 64 samples, for another machine
   isophote render scene.glb -o image.exr --spp 4096 --checkpoint image.ckpt --resume      safe against power cuts
   isophote render scene.glb -o direct.exr --max-depth 1 --stats stats.json
+  isophote render scene.glb -o image.exr -o quiet.png --denoise           the EXR keeps the image as it is, with one layer more
 
 Ctrl-C ends the render and saves the image (exit code 130); a second one aborts.)";
 
@@ -129,6 +131,11 @@ void refuseAdaptive(const RenderOptions& options) {
   if (options.plan) throw UsageError("--adaptive: --plan does not know what it saves");
 }
 
+void refuseDenoisedShard(const RenderOptions& options) {
+  if (options.sampleRange && options.settings.layers.denoiser != Denoiser::None)
+    throw UsageError("--denoise: this is a part of an image, denoise the whole: isophote merge --denoise");
+}
+
 /// Samples a pixel of the pilot that says where the error is: a sixteenth of all, in whole rounds.
 uint32_t pilotSamples(const RenderOptions& options) {
   constexpr uint32_t kRound = 8, kMost = 64, kUsual = 16;
@@ -144,23 +151,24 @@ StopRule sharedOut(StopRule rule, const AdaptivePlan& plan) {
   return rule;
 }
 
+/// What a PNG shows: the denoised layer where there is one, as it was asked for.
+/// Alpha is coverage by geometry; where an environment shows, the picture is opaque all the same.
+Image pictureOf(const Image& image, bool denoised, bool environment) {
+  Image picture{.width = image.width, .height = image.height};
+  for (const char* color : {"R", "G", "B"})
+    picture.channels.push_back({color, image.find((denoised ? "denoised." : "") + std::string(color))->values});
+  if (!environment) picture.channels.push_back(*image.find("A"));
+  return picture;
+}
+
 void writeImages(const RenderOptions& options, const Image& image, bool environment) {
-  Image opaque;
+  const bool denoised = options.settings.layers.denoiser != Denoiser::None;
   for (const std::string& file : options.outputs) {
-    if (!isPng(file)) {
+    if (isPng(file)) {
+      writePng(file, pictureOf(image, denoised, environment), options.exposureEv, options.toneMap, options.transfer);
+    } else {
       writeExr(file, image);
-      continue;
     }
-    // Alpha is coverage by geometry; where an environment shows, the picture is opaque all the same.
-    if (!environment) {
-      writePng(file, image, options.exposureEv, options.toneMap, options.transfer);
-      continue;
-    }
-    if (opaque.channels.empty()) {
-      opaque = image;
-      std::erase_if(opaque.channels, [](const Channel& channel) { return channel.name == "A"; });
-    }
-    writePng(file, opaque, options.exposureEv, options.toneMap, options.transfer);
   }
 }
 
@@ -208,6 +216,7 @@ int runRender(const RenderOptions& options) {
   checkOutputs(options);
   if (options.unbiased) refuseBias(options.settings);
   refuseAdaptive(options);
+  refuseDenoisedShard(options);
   if (options.plan) return runPlan(options);
   Stopwatch watch;
   RenderReport report{.scene = options.scene,
@@ -266,6 +275,10 @@ int runRender(const RenderOptions& options) {
   watch.lap();
   Image image = film.resolve();
   countSamples(image, report.rule.samples, report);
+  if (options.settings.layers.denoiser != Denoiser::None) {
+    addDenoised(image);
+    report.seconds.denoise = watch.lap();
+  }
   report.bias = biasAccount(image);
   image.attributes = imageAttributes(report);
   image.renderSeconds = static_cast<float>(report.seconds.render);

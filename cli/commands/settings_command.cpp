@@ -13,7 +13,7 @@ namespace {
 void printText() {
   for (const SettingEntry& entry : settingTable()) {
     fmt::print("{:<17} {}\n{:<17} values: {}; exact: {}; fast: {}{}\n", entry.key, entry.description, "", entry.values,
-               entry.exact, entry.fast, entry.execution ? "; never changes the image" : "");
+               entry.exact, entry.fast, entry.kind == SettingKind::Estimator ? "" : "; never changes the image");
   }
 }
 
@@ -25,7 +25,7 @@ void printJson() {
                     {"default", entry.get(Settings{})},
                     {"exact", entry.exact},
                     {"fast", entry.fast},
-                    {"changes_image", !entry.execution},
+                    {"changes_image", entry.kind == SettingKind::Estimator},
                     {"description", entry.description}});
   }
   fmt::print("{}\n", nlohmann::ordered_json{{"schema", 1}, {"settings", list}}.dump(2));

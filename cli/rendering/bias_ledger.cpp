@@ -26,6 +26,7 @@ double sum(const glm::dvec3& color) { return color.r + color.g + color.b; }
 BiasAccount biasAccount(const Image& image) {
   BiasAccount account{.kept = colorMean(image, ""), .clamped = colorMean(image, "clamped.")};
   if (image.find("beyond.R") != nullptr) account.beyond = colorMean(image, "beyond.");
+  if (image.find("denoised.R") != nullptr) account.undenoised = account.kept - colorMean(image, "denoised.");
   return account;
 }
 
@@ -40,6 +41,7 @@ void enterAccount(const BiasAccount& account, Json& ledger) {
   };
   enter("clamp", account.clamped, "clamped.{R,G,B}");
   if (account.beyond) enter("max-depth", *account.beyond, "beyond.{R,G,B}");
+  enter("denoiser", account.undenoised, "denoised.{R,G,B}");
 }
 
 } // namespace isophote::cli

@@ -15,6 +15,7 @@ struct BiasAccount {
   glm::dvec3 kept{0};               ///< what the image has
   glm::dvec3 clamped{0};            ///< what the clamp removed
   std::optional<glm::dvec3> beyond; ///< what the depth limit left out, where it was measured
+  glm::dvec3 undenoised{0};         ///< what the denoised layer lacks of `kept`, where there is one
 };
 
 /// Read off the image's layers.

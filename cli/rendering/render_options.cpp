@@ -153,6 +153,11 @@ void addEstimatorFlags(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false)
       ->group(kGroup);
   command
+      .add_flag_callback(
+          "--denoise", [&options] { options.settings.layers.denoiser = Denoiser::Atrous; },
+          "Add the layer denoised.{R,G,B}, less noisy and biased, and show it in PNG files; the image stays as it is")
+      ->group(kGroup);
+  command
       .add_flag("--unbiased", options.unbiased,
                 "Refuse every setting that biases the image, and fail on a dropped sample")
       ->group(kGroup);

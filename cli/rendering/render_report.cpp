@@ -126,7 +126,7 @@ const char* outcomeName(Outcome outcome) {
 
 /// What was asked for: the estimator's settings, the image, the camera and the light around the scene.
 Json requestJson(const RenderReport& report) {
-  Json settings = settingsJson(report.settings, false);
+  Json settings = settingsJson(report.settings, SettingKind::Estimator);
   settings["image"] = sizeJson(report);
   settings["camera"] = report.view.framing ? Json(nullptr) : Json(report.view.camera.name);
   if (!report.view.framing) settings["camera_index"] = report.view.cameraIndex;
@@ -181,6 +181,7 @@ Json statsJson(const RenderReport& report) {
             {"upload", report.seconds.upload},
             {"compile", report.seconds.compile},
             {"render", seconds},
+            {"denoise", report.seconds.denoise},
             {"write", report.seconds.write},
             {"first_pixel", render.firstPixelSeconds}}},
           {"memory",
@@ -205,8 +206,8 @@ Json statsJson(const RenderReport& report) {
           {"outcome", outcomeName(report.result.outcome)},
           {"image", sizeJson(report)},
           {"sample_range", {report.samples.first, report.samples.last}},
-          {"settings", settingsJson(report.settings, false)},
-          {"execution", settingsJson(report.settings, true)},
+          {"settings", settingsJson(report.settings, SettingKind::Estimator)},
+          {"execution", settingsJson(report.settings, SettingKind::Execution)},
           {"path_pool_size", render.pathPoolSize},
           {"workgroup_size", render.workgroupSize},
           {"buffers", buffersJson(report)},
@@ -226,10 +227,13 @@ std::string sampleIdentity(const RenderReport& report, uint32_t firstSample) {
 }
 
 std::map<std::string, std::string> imageAttributes(const RenderReport& report) {
+  Json request = requestJson(report);
+  if (report.settings.layers.denoiser != Denoiser::None)
+    request.update(settingsJson(report.settings, SettingKind::Layer));
   return {{"isophote.version", kVersion},
           {"isophote.scene", report.scene},
           {"isophote.sceneHash", report.sceneHash},
-          {"isophote.settings", dump(requestJson(report))},
+          {"isophote.settings", dump(request)},
           {"isophote.device", fmt::format("{}, {}", report.device.name, report.device.driver)},
           {"isophote.features", dump(report.features.names())},
           {"isophote.seed", std::to_string(report.settings.estimator.seed)},

@@ -23,6 +23,7 @@ struct PhaseSeconds {
   double upload = 0;
   double compile = 0;
   double render = 0;
+  double denoise = 0;
   double write = 0;
 };
 

@@ -59,8 +59,10 @@ bool Configuration::declaredUnbiased() const { return biasJson(settings()).empty
 
 bool Configuration::executionOnly() const {
   return std::all_of(changes.begin(), changes.end(),
-                     [](const Change& change) { return findEntry(change.key).execution; });
+                     [](const Change& change) { return findEntry(change.key).kind == SettingKind::Execution; });
 }
+
+bool Configuration::denoised() const { return settings().layers.denoiser != Denoiser::None; }
 
 Configuration Configuration::combinedWith(const Configuration& other) const {
   Configuration both = *this;
@@ -83,7 +85,7 @@ std::vector<Configuration> singleChanges(const std::vector<std::string>& asked) 
   std::vector<Configuration> list;
   if (asked.empty()) {
     for (const SettingEntry& entry : settingTable()) {
-      if (!entry.execution) addChanges(entry, entry.trials, list);
+      if (entry.kind != SettingKind::Execution) addChanges(entry, entry.trials, list);
     }
   }
   for (const std::string& text : asked) {

@@ -28,6 +28,9 @@ struct Configuration {
   [[nodiscard]] bool declaredUnbiased() const;
   /// Whether nothing but how the work is cut differs, which never changes the image.
   [[nodiscard]] bool executionOnly() const;
+  /// Whether it is judged by its denoised layer. Noise and bias of that both fall with the samples, so that it is no
+  /// way to render that could be compared with others at every time.
+  [[nodiscard]] bool denoised() const;
   /// Both configurations' changes; nothing where they disagree on a setting, or one of them holds the other.
   [[nodiscard]] Configuration combinedWith(const Configuration& other) const;
 };

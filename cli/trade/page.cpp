@@ -96,8 +96,10 @@ public:
       html_ += "<h2>Price and bias</h2>\n" + frontPlot();
       html_ += "<p class='quiet'>Each way to render by the time it takes to the same noise, and by its bias. Whiskers: "
                "95% intervals. Dashed: the Pareto front. Below and left is better.</p>\n";
-      table("One setting at a time", true);
-      table("Combinations", false);
+      table("One setting at a time", singles());
+      table("Combinations", combinations());
+      table("The denoised layer", denoised());
+      aboutDenoised();
     }
     leftOut();
     method();
@@ -231,7 +233,7 @@ private:
     double least = 0.8, most = 1.25, highest = 0.01;
     for (size_t i = 0; i < study_.measurements.size(); ++i) {
       const Measurement& m = study_.measurements[i];
-      if (!m.measured()) continue;
+      if (!m.measured() || m.configuration.denoised()) continue;
       const double cost = study_.tradeOff(i).cost / exactCost;
       if (cost > 0 && std::isfinite(cost)) { // a way without noise has no place on the axis
         least = std::min(least, 0.8 * cost);
@@ -259,7 +261,7 @@ private:
 
   void markWay(Plot& plot, size_t index, const std::vector<size_t>& colored, double exactCost) const {
     const Measurement& m = study_.measurements[index];
-    if (!m.measured()) return;
+    if (!m.measured() || m.configuration.denoised()) return;
     const auto place = std::find(colored.begin(), colored.end(), index);
     const std::string style = place == colored.end() ? "other" : fmt::format("s{}", place - colored.begin());
     const Price price = priceOf(m, study_.exact());
@@ -273,17 +275,32 @@ private:
               labelled ? m.configuration.name() : "");
   }
 
-  void table(const std::string& title, bool singles) {
-    std::vector<size_t> rows;
+  template <class Wanted> [[nodiscard]] std::vector<size_t> measured(const Wanted& wanted) const {
+    std::vector<size_t> list;
     for (size_t i = 0; i < study_.measurements.size(); ++i) {
-      const size_t changes = study_.measurements[i].configuration.changes.size();
-      if (study_.measurements[i].measured() && (changes < 2) == singles) rows.push_back(i);
+      if (study_.measurements[i].measured() && wanted(study_.measurements[i].configuration)) list.push_back(i);
     }
+    return list;
+  }
+
+  [[nodiscard]] std::vector<size_t> singles() const {
+    return measured([](const Configuration& c) { return c.changes.size() < 2 && !c.denoised(); });
+  }
+
+  /// The fastest first.
+  [[nodiscard]] std::vector<size_t> combinations() const {
+    std::vector<size_t> list = measured([](const Configuration& c) { return c.changes.size() >= 2; });
+    std::sort(list.begin(), list.end(),
+              [&](size_t a, size_t b) { return study_.tradeOff(a).cost < study_.tradeOff(b).cost; });
+    return list;
+  }
+
+  [[nodiscard]] std::vector<size_t> denoised() const {
+    return measured([](const Configuration& c) { return c.denoised(); });
+  }
+
+  void table(const std::string& title, const std::vector<size_t>& rows) {
     if (rows.empty()) return;
-    if (!singles) {
-      std::sort(rows.begin(), rows.end(),
-                [&](size_t a, size_t b) { return study_.tradeOff(a).cost < study_.tradeOff(b).cost; });
-    }
     html_ +=
         fmt::format("<h2>{}</h2>\n<div class='wide'><table><tr><th>settings</th><th>time per sample<br>× exact</th>"
                     "<th>noise²<br>× exact</th><th>time to same noise<br>× exact</th><th>noise RMS<br>of a run</th>"
@@ -323,6 +340,21 @@ private:
           "<tr><td colspan='9' class='bad'>This setting should not change the image's expectation, but differs from "
           "the reference: a rare bright event, or a bug.</td></tr>\n";
     }
+  }
+
+  void aboutDenoised() {
+    if (denoised().empty()) return;
+    html_ += fmt::format(
+        "<p class='quiet'>What a filter makes of the exact image of {} samples, beside it. It has no error bars: its "
+        "noise is from how its runs differ. Noise and bias both fall with the samples, so that it has no place in the "
+        "plots and is not recommended; whether it helps is told by noise² and bias² together, here {:.3g} of the exact "
+        "image's noise².</p>\n",
+        study_.samplesPerRun, denoisedShare());
+  }
+
+  /// Mean square of the denoised layer's error, noise and bias together, over that of the image.
+  [[nodiscard]] double denoisedShare() const {
+    return study_.measurements[denoised().front()].split.totalSquare.value / study_.exact().split.totalSquare.value;
   }
 
   void leftOut() {

@@ -185,11 +185,9 @@ private:
     m.splitter->add(result->image);
     m.split = m.splitter->split();
     m.state = MeasurementState::Measured;
-    m.runs.push_back({.round = round,
-                      .seed = seed,
-                      .samples = study_.samplesPerRun,
-                      .seconds = result->seconds,
-                      .noiseSquare = m.splitter->noiseSquares().back()});
+    m.runs.push_back({.round = round, .seed = seed, .samples = study_.samplesPerRun, .seconds = result->seconds});
+    // Without error bars the second run tells the noise of the first, too.
+    for (size_t run = 0; run < m.runs.size(); ++run) m.runs[run].noiseSquare = m.splitter->noiseSquares()[run];
     return true;
   }
 
@@ -216,16 +214,18 @@ private:
     }
   }
 
-  std::vector<size_t> measuredOnes() const {
+  /// What the search is among.
+  std::vector<size_t> measuredWays() const {
     std::vector<size_t> list;
     for (size_t i = 0; i < study_.measurements.size(); ++i) {
-      if (study_.measurements[i].measured()) list.push_back(i);
+      const Measurement& m = study_.measurements[i];
+      if (m.measured() && !m.configuration.denoised()) list.push_back(i);
     }
     return list;
   }
 
   std::vector<size_t> front() const {
-    const std::vector<size_t> candidates = measuredOnes();
+    const std::vector<size_t> candidates = measuredWays();
     std::vector<TradeOff> ways;
     for (const size_t i : candidates) ways.push_back(study_.tradeOff(i));
     std::vector<size_t> front;
@@ -244,7 +244,7 @@ private:
     const double exactCost = study_.tradeOff(0).cost;
     std::vector<std::pair<double, Configuration>> found;
     for (const size_t a : front()) {
-      for (const size_t b : measuredOnes()) {
+      for (const size_t b : measuredWays()) {
         const Measurement &first = study_.measurements[a], &second = study_.measurements[b];
         const double gain = study_.tradeOff(b).cost / exactCost;
         Configuration both = first.configuration.combinedWith(second.configuration);
@@ -281,7 +281,7 @@ private:
 
   /// What the fewest rounds of so many configurations take, compilation of the new ones included.
   [[nodiscard]] double batchSeconds(size_t configurations) const {
-    const double compile = bench_.compileSeconds() / static_cast<double>(std::max<size_t>(measuredOnes().size(), 1));
+    const double compile = bench_.compileSeconds() / static_cast<double>(std::max<size_t>(measuredWays().size(), 1));
     return static_cast<double>(configurations) * (compile + kFewestRounds * runSeconds_);
   }
 
@@ -363,7 +363,7 @@ std::vector<Recommendation> recommend(const Study& study) {
     double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < study.measurements.size(); ++i) {
       const Measurement& m = study.measurements[i];
-      if (!m.measured()) continue;
+      if (!m.measured() || m.configuration.denoised()) continue;
       const bool biased = !m.declaredUnbiased || study.biasSeen(m);
       if (biased && !biasAllowed) continue;
       // Cheaper beyond doubt, not by the luck of being the least of many.

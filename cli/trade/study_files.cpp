@@ -51,7 +51,8 @@ Json measurementJson(const Study& study, size_t index) {
   Json json = {{"name", m.configuration.name()},
                {"settings", changesJson(m.configuration)},
                {"state", stateName(m)},
-               {"declared_unbiased", m.declaredUnbiased}};
+               {"declared_unbiased", m.declaredUnbiased},
+               {"layer", m.configuration.denoised() ? "denoised" : "image"}};
   if (m.state == MeasurementState::Refused) json["reason"] = m.reason;
   if (!m.measured()) return json;
   const Price price = priceOf(m, study.exact());

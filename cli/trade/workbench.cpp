@@ -1,5 +1,6 @@
 #include "trade/workbench.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace isophote::cli {
@@ -8,7 +9,8 @@ Workbench::Workbench(const Device& device, const Scene& scene, const View& view,
     : device_(device), scene_(device, scene), view_(view), goOn_(std::move(goOn)) {}
 
 PathTracer& Workbench::tracer(const Settings& settings) {
-  const std::string key = settingsJson(settings, false).dump() + settingsJson(settings, true).dump();
+  const std::string key =
+      settingsJson(settings, SettingKind::Estimator).dump() + settingsJson(settings, SettingKind::Execution).dump();
   std::unique_ptr<PathTracer>& entry = tracers_[key];
   if (!entry) {
     try {
@@ -21,7 +23,9 @@ PathTracer& Workbench::tracer(const Settings& settings) {
   return *entry;
 }
 
-Film Workbench::makeFilm() const { return {device_, {.width = view_.width, .height = view_.height, .aovs = false}}; }
+Film Workbench::makeFilm(bool aovs) const {
+  return {device_, {.width = view_.width, .height = view_.height, .aovs = aovs}};
+}
 
 bool Workbench::renderMore(const Settings& settings, uint64_t seed, SampleRange samples, Film& film) {
   PathTracer& path = tracer(settings);
@@ -31,10 +35,18 @@ bool Workbench::renderMore(const Settings& settings, uint64_t seed, SampleRange 
 
 std::optional<BenchRender> Workbench::render(const Settings& settings, uint64_t seed, SampleRange samples) {
   const double before = tracer(settings).statistics().renderSeconds;
-  Film film = makeFilm();
+  const bool denoise = settings.layers.denoiser != Denoiser::None;
+  Film film = makeFilm(denoise);
   if (!renderMore(settings, seed, samples, film)) return std::nullopt;
-  return BenchRender{
+  BenchRender result{
       .image = film.resolve(), .error = film.error(), .seconds = tracer(settings).statistics().renderSeconds - before};
+  if (denoise) {
+    const auto start = std::chrono::steady_clock::now();
+    addDenoised(result.image);
+    result.image = denoisedImage(result.image);
+    result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return result;
 }
 
 double Workbench::compileSeconds() const {

@@ -15,9 +15,9 @@
 namespace isophote::cli {
 
 struct BenchRender {
-  Image image;
-  ErrorEstimate error;
-  double seconds = 0; ///< of rendering, without the compilation of kernels
+  Image image;         ///< the denoised one, without error bars, where the settings name a denoiser
+  ErrorEstimate error; ///< before the denoiser
+  double seconds = 0;  ///< of rendering and denoising, without the compilation of kernels
 };
 
 /// Kernels are compiled once for each set of settings and kept.
@@ -33,7 +33,8 @@ public:
   /// @return false where `goOn` ended it
   bool renderMore(const Settings& settings, uint64_t seed, SampleRange samples, Film& film);
 
-  [[nodiscard]] Film makeFilm() const;
+  /// @param aovs  what a denoiser needs
+  [[nodiscard]] Film makeFilm(bool aovs = false) const;
   [[nodiscard]] const View& view() const { return view_; }
   [[nodiscard]] double compileSeconds() const;
 

@@ -79,7 +79,8 @@ void readSettings(const TemporaryFolder&, const std::string& bytes) {
     attempt([&] { (void)cli::parseSky(line); });
     attempt([&] { (void)cli::parseShare(line); });
   }
-  (void)cli::settingsJson(settings, false).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  (void)cli::settingsJson(settings, cli::SettingKind::Estimator)
+      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (refused) throw UsageError("refused");
 }
 

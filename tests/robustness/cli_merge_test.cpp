@@ -45,6 +45,22 @@ TEST_F(CliMerge, ShardsInAnyOrderAreTheWholeRender) {
   }
 }
 
+TEST_F(CliMerge, DenoisesTheWholeAsRenderDoes) {
+  render("whole.exr", {"--spp", "16", "--denoise"});
+  render("a.exr", {"--sample-range", "0:9"});
+  render("b.exr", {"--sample-range", "9:16"});
+  const auto merged = run({"merge", file("a.exr"), file("b.exr"), "-o", file("merged.exr"), "--denoise", "--quiet"});
+  ASSERT_EQ(merged.exitCode, 0) << merged.err;
+  EXPECT_TRUE(test::bitIdentical(readExr(file("merged.exr")), readExr(file("whole.exr"))));
+  EXPECT_EQ(readExr(file("merged.exr")).attributes.at("isophote.bias"),
+            readExr(file("whole.exr")).attributes.at("isophote.bias"));
+  const auto compared = run({"compare", file("merged.exr"), file("whole.exr"), "--denoised", "--json"});
+  EXPECT_EQ(compared.exitCode, 0) << compared.err;
+  EXPECT_EQ(compared.out.find("verdict"), std::string::npos); // the layer has no error bars
+  const auto shard = run({"render", scene_, "-o", file("c.exr"), "--sample-range", "0:8", "--denoise"});
+  EXPECT_EQ(shard.exitCode, 2) << shard.err;
+}
+
 TEST_F(CliMerge, TheLedgerIsThatOfTheWholeImage) {
   const std::vector<std::string> biased = {"--env-color", "1,2,3", "--set", "clamp=0.5"};
   const auto with = [&](std::vector<std::string> samples) {

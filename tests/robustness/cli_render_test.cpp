@@ -51,6 +51,23 @@ TEST_F(CliRender, WritesTheLayersAndAttributesThatScriptsRead) {
   EXPECT_GT(*std::max_element(read.find("R")->values.begin(), read.find("R")->values.end()), 0);
 }
 
+// The image and all its layers stay as they are, bit for bit.
+TEST_F(CliRender, DenoisesBesideTheImage) {
+  ASSERT_EQ(render({"--spp", "16", "--quiet"}).exitCode, 0);
+  const Image plain = readExr(image());
+  const auto result = render({"--spp", "16", "--quiet", "--denoise"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Image both = readExr(image());
+  EXPECT_EQ(plain.find("denoised.R"), nullptr);
+  ASSERT_NE(both.find("denoised.R"), nullptr);
+  EXPECT_EQ(both.channels.size(), plain.channels.size() + 3);
+  for (const Channel& channel : plain.channels) EXPECT_EQ(both.find(channel.name)->values, channel.values);
+  const auto bias = nlohmann::json::parse(both.attributes.at("isophote.bias"));
+  EXPECT_EQ(bias.at("denoiser").at("layer"), "denoised.{R,G,B}");
+  EXPECT_EQ(nlohmann::json::parse(both.attributes.at("isophote.settings")).at("denoiser"), "atrous");
+  EXPECT_EQ(render({"--spp", "1", "--unbiased", "--denoise"}).exitCode, 2);
+}
+
 TEST_F(CliRender, UnbiasedRefusesABiasedSetting) {
   const auto refused = render({"--spp", "1", "--unbiased", "--max-depth", "3"});
   EXPECT_EQ(refused.exitCode, 2) << refused.err;

@@ -18,7 +18,8 @@ protected:
             "--width",    "16",
             "--budget",   budget,
             "--settings", "sampler",
-            "--settings", "max-depth=0"};
+            "--settings", "max-depth=0",
+            "--settings", "denoiser"};
   }
   [[nodiscard]] nlohmann::json study() const {
     return nlohmann::json::parse(test::readBytes(path("study") / "trade.json"));
@@ -32,7 +33,7 @@ TEST_F(CliTrade, TellsABiasedSettingFromAnExactTwin) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const auto json = study();
   const auto& list = json.at("configurations");
-  ASSERT_GE(list.size(), 3u);
+  ASSERT_GE(list.size(), 4u);
   EXPECT_EQ(list[0].at("name"), "exact");
   EXPECT_EQ(list[1].at("name"), "sampler=independent");
   EXPECT_FALSE(list[1].at("bias_seen"));
@@ -41,9 +42,14 @@ TEST_F(CliTrade, TellsABiasedSettingFromAnExactTwin) {
   EXPECT_EQ(list[2].at("name"), "max-depth=0");
   EXPECT_TRUE(list[2].at("bias_seen"));
   EXPECT_NEAR(list[2].at("brightness").at("value").get<double>(), -1, 0.01);
+  EXPECT_EQ(list[3].at("name"), "denoiser=atrous");
+  EXPECT_EQ(list[3].at("layer"), "denoised");
+  EXPECT_FALSE(list[3].at("on_front"));
+  EXPECT_GT(list[3].at("noise_square").at("value"), 0); // though it has no error bars
   ASSERT_EQ(json.at("recommendations").size(), 3u);
   for (const auto& recommendation : json.at("recommendations")) {
     EXPECT_FALSE(recommendation.at("settings").contains("max-depth")) << recommendation;
+    EXPECT_FALSE(recommendation.at("settings").contains("denoiser")) << recommendation;
     EXPECT_GE(recommendation.at("confirmation").at("runs"), 2) << recommendation;
   }
   const std::string page = test::readBytes(path("study") / "trade.html");

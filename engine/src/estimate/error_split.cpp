@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "isophote/error.hpp"
 
@@ -89,18 +90,45 @@ ErrorSplitter::ErrorSplitter(const Image& reference)
 
 void ErrorSplitter::add(const Image& run) {
   if (run.width != width_ || run.height != height_) throw UsageError("a run of another size than the reference");
-  const std::vector<double> values = interleaved(run, "");
+  std::vector<double> differences = interleaved(run, "");
+  for (size_t i = 0; i < differences.size(); ++i) {
+    differences[i] -= reference_[i];
+    sum_[i] += differences[i];
+    squares_[i] += differences[i] * differences[i];
+  }
+  if (run.find("stderr.R") != nullptr) {
+    noiseFromErrorBars(run);
+  } else {
+    noiseFromSpread(std::move(differences));
+  }
+}
+
+void ErrorSplitter::noiseFromErrorBars(const Image& run) {
   const std::vector<double> errors = interleaved(run, "stderr.");
   const std::vector<double> cautious = cautiousVariances(run);
   double noise = 0;
-  for (size_t i = 0; i < values.size(); ++i) {
-    const double difference = values[i] - reference_[i];
-    sum_[i] += difference;
-    squares_[i] += difference * difference;
+  for (size_t i = 0; i < errors.size(); ++i) {
     noise += weight_[i] * errors[i] * errors[i];
     brightnessVariance_ += cautious[i];
   }
-  noiseSquares_.push_back(noise / static_cast<double>(values.size()));
+  noiseSquares_.push_back(noise / static_cast<double>(errors.size()));
+}
+
+void ErrorSplitter::noiseFromSpread(std::vector<double> differences) {
+  double noise = 0;
+  double total = 0;
+  for (size_t i = 0; i < previous_.size(); ++i) {
+    const double step = differences[i] - previous_[i];
+    noise += weight_[i] * step * step / 2;
+    total += step;
+  }
+  noiseSquares_.push_back(noise / static_cast<double>(differences.size()));
+  brightnessVariance_ += total * total / 2;
+  if (noiseSquares_.size() == 2) {
+    noiseSquares_.front() = noiseSquares_.back();
+    brightnessVariance_ += total * total / 2;
+  }
+  previous_ = std::move(differences);
 }
 
 ErrorSplit ErrorSplitter::split() const {
