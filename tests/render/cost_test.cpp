@@ -4,6 +4,7 @@
 #include <map>
 
 #include "isophote/path_tracer.hpp"
+#include "shared/path_types.h"
 #include "support/gpu_device.hpp"
 #include "support/render.hpp"
 #include "support/scenes.hpp"
@@ -44,6 +45,14 @@ TEST(RenderCost, RaysAndBytesOfAPathAreNoMoreThanRecorded) {
   const double samples = 32.0 * 32.0 * 16.0;
   EXPECT_NEAR(static_cast<double>(cost.bounceRays) / samples, 1.939, 0.02);
   EXPECT_NEAR(static_cast<double>(cost.shadowRays) / samples, 1.726, 0.02);
+}
+
+TEST(RenderCost, ABounceMovesNoMoreBytesThanRecorded) {
+  // With next event estimation: each of these is written by one kernel and read by another.
+  const size_t passedOn = sizeof(gpu::RayState) + sizeof(gpu::HitState) + sizeof(gpu::PathState) +
+                          sizeof(gpu::ShadowState) + sizeof(gpu::PathState::radiance) +
+                          3 * sizeof(uint32_t); // entries of the queues of rays, surfaces and shadow rays
+  EXPECT_LE(2 * passedOn, 320u);
 }
 
 } // namespace

@@ -154,3 +154,14 @@ TEST(WideBvh, SlotsGoByPlace) {
   ASSERT_EQ(bvh.nodes.size(), 1u);
   EXPECT_EQ(bvh.order, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
 }
+
+TEST(WideBvh, DoesNotDependOnTheNumberOfThreads) {
+  const Bvh binary = buildBvh(randomBoxes(200000, 21, 0.05f), {.maxLeafItems = 1});
+  const WideBvh alone = widenBvh(binary, {.threads = 1});
+  const WideBvh shared = widenBvh(binary, {.threads = 3});
+  ASSERT_EQ(alone.nodes.size(), shared.nodes.size());
+  EXPECT_EQ(std::memcmp(alone.nodes.data(), shared.nodes.data(), alone.nodes.size() * sizeof(BvhNode)), 0);
+  EXPECT_EQ(alone.order, shared.order);
+  EXPECT_EQ(alone.maxDepth, shared.maxDepth);
+  EXPECT_EQ(alone.sahCost, shared.sahCost);
+}

@@ -4,7 +4,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <future>
 #include <limits>
+#include <span>
+#include <thread>
+#include <tuple>
 #include <utility>
 
 namespace isophote {
@@ -18,6 +22,11 @@ constexpr int kExponentBias = 127;
 constexpr int kSmallestExponent = -100; // of a frame's size: boxes smaller than its cells need no frame of their own
 constexpr int kLargestExponent = 127;
 constexpr double kCells = gpu::kBvhFrameCells;
+
+// Subtrees of fewer binary nodes are not worth a thread: at about 0.3 us a node the work is some 10 ms.
+constexpr uint32_t kMinNodesPerThread = 32768;
+// Subtrees are uneven, the system's scheduler levels them out.
+constexpr uint32_t kThreadsPerCore = 4;
 
 // A child of a wide node: a subtree of the binary tree with its items.
 struct Child {
@@ -45,17 +54,27 @@ public:
   }
 
   WideBvh widen() {
-    findForests();
-    wide_.bounds = binary_.bounds;
-    wide_.order.reserve(binary_.order.size());
-    wide_.nodes.emplace_back();
-    wide_.maxDepth = fill(0, 0, binary_.bounds);
+    const uint32_t cores = options_.threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : options_.threads;
+    const uint32_t threads = cores == 1 ? 1 : cores * kThreadsPerCore;
+    findForests(0, static_cast<uint32_t>(binary_.nodes.size()), threads);
+    Subtree all = subtree(0, binary_.bounds, threads);
     const double area = halfArea(binary_.bounds);
-    wide_.sahCost = options_.nodeCost + (area > 0 ? cost_ / area : 0);
-    return std::move(wide_);
+    return {.nodes = std::move(all.nodes),
+            .order = std::move(all.order),
+            .maxDepth = all.depth,
+            .sahCost = options_.nodeCost + (area > 0 ? all.cost / area : 0),
+            .bounds = binary_.bounds};
   }
 
 private:
+  // Wide nodes, root first, with indices of their own.
+  struct Subtree {
+    std::vector<gpu::BvhNode> nodes;
+    std::vector<uint32_t> order;
+    uint32_t depth = 0; // levels
+    double cost = 0;    // sum of half area x cost over children
+  };
+
   struct Side {
     Box box;
     uint32_t child, count;
@@ -75,9 +94,18 @@ private:
     return scaledArea(side.box) * options_.itemCost * static_cast<float>(side.count);
   }
 
-  // Children come after their parents, so backwards is upwards.
-  void findForests() {
-    for (size_t i = binary_.nodes.size(); i-- > 0;) {
+  // Of the binary nodes [first, last), which are a subtree: its root, what is below the left child, what is below the
+  // right one. Children come after their parents, so backwards is upwards.
+  void findForests(uint32_t first, uint32_t last, uint32_t threads) {
+    if (threads > 1 && last - first >= 2 * kMinNodesPerThread) {
+      const BinaryNode& root = binary_.nodes[first];
+      const uint32_t right = root.count1 == 0 ? root.child1 : last;
+      auto pending = std::async(std::launch::async, [=, this] { findForests(first + 1, right, threads / 2); });
+      findForests(right, last, threads - threads / 2);
+      pending.get();
+      last = first + 1;
+    }
+    for (uint32_t i = last; i-- > first;) {
       const Side left = side(binary_.nodes[i], false);
       const Side right = side(binary_.nodes[i], true);
       if (left.absent() || right.absent()) continue; // a root with one leaf or none
@@ -138,8 +166,17 @@ private:
     addChildren(side(binary_.nodes[node], true), std::min(most - left, kBvhWidth - 1), children, count);
   }
 
-  // Fills wide node `self` with what is below a binary node. Returns the levels below, itself included.
-  uint32_t fill(uint32_t self, uint32_t node, const Box& box) {
+  // What is below a binary node.
+  [[nodiscard]] Subtree subtree(uint32_t node, const Box& box, uint32_t threads) const {
+    Subtree result;
+    result.nodes.emplace_back();
+    std::tie(result.depth, result.cost) = fill(result, 0, node, box, threads);
+    return result;
+  }
+
+  // Fills wide node `self` with what is below a binary node. Returns the levels, itself included, and the cost below.
+  std::pair<uint32_t, double> fill(Subtree& wide, uint32_t self, uint32_t node, const Box& box,
+                                   uint32_t threads) const {
     std::array<Child, kBvhWidth> children;
     uint32_t count = 0;
     if (side(binary_.nodes[node], true).absent()) {
@@ -149,26 +186,70 @@ private:
       distribute(node, kBvhWidth, children, count);
     }
     const std::array<const Child*, kBvhWidth> slots = assignSlots({children.data(), count}, box);
-    wide_.nodes[self] = encode(slots, box);
+    wide.nodes[self] = encode(slots, box);
 
-    const auto firstChild = static_cast<uint32_t>(wide_.nodes.size());
-    wide_.nodes[self].firstChild = firstChild;
-    wide_.nodes[self].firstItem = static_cast<uint32_t>(wide_.order.size());
-    uint32_t inner = 0;
+    const auto firstChild = static_cast<uint32_t>(wide.nodes.size());
+    wide.nodes[self].firstChild = firstChild;
+    wide.nodes[self].firstItem = static_cast<uint32_t>(wide.order.size());
+    double cost = 0;
+    std::array<const Child*, kBvhWidth> inner{};
+    uint32_t innerCount = 0;
     for (const Child* child : slots) {
       if (child == nullptr) continue;
-      cost_ += halfArea(child->box) *
-               (child->itemCount != 0 ? options_.itemCost * static_cast<float>(child->itemCount) : options_.nodeCost);
-      if (child->itemCount == 0) ++inner;
-      for (uint32_t i = 0; i < child->itemCount; ++i) wide_.order.push_back(binary_.order[child->firstItem + i]);
+      cost += halfArea(child->box) *
+              (child->itemCount != 0 ? options_.itemCost * static_cast<float>(child->itemCount) : options_.nodeCost);
+      if (child->itemCount == 0) inner[innerCount++] = child;
+      for (uint32_t i = 0; i < child->itemCount; ++i) wide.order.push_back(binary_.order[child->firstItem + i]);
     }
-    wide_.nodes.resize(firstChild + inner);
-    uint32_t next = firstChild;
-    uint32_t depth = 0;
-    for (const Child* child : slots) {
-      if (child != nullptr && child->itemCount == 0) depth = std::max(depth, fill(next++, child->node, child->box));
+    wide.nodes.resize(firstChild + innerCount);
+    const std::span<const Child* const> subtrees(inner.data(), innerCount);
+    const bool parallel = threads > 1 && forests_[node].itemCount >= 2 * kMinNodesPerThread;
+    const auto [depth, below] =
+        parallel ? fillInParallel(wide, firstChild, subtrees, threads) : fillInTurn(wide, firstChild, subtrees);
+    return {depth + 1, cost + below};
+  }
+
+  std::pair<uint32_t, double> fillInTurn(Subtree& wide, uint32_t first, std::span<const Child* const> children) const {
+    uint32_t deepest = 0;
+    double sum = 0;
+    for (const Child* child : children) {
+      const auto [depth, cost] = fill(wide, first++, child->node, child->box, 1);
+      deepest = std::max(deepest, depth);
+      sum += cost;
     }
-    return depth + 1;
+    return {deepest, sum};
+  }
+
+  // The same nodes in the same order, each child's by a thread of its own.
+  std::pair<uint32_t, double> fillInParallel(Subtree& wide, uint32_t first, std::span<const Child* const> children,
+                                             uint32_t threads) const {
+    std::vector<std::future<Subtree>> pending;
+    const uint32_t share = std::max(1u, threads / static_cast<uint32_t>(std::max<size_t>(children.size(), 1)));
+    for (const Child* child : children) {
+      pending.push_back(std::async(std::launch::async, [=, this] { return subtree(child->node, child->box, share); }));
+    }
+    uint32_t deepest = 0;
+    double sum = 0;
+    for (std::future<Subtree>& future : pending) {
+      Subtree part = future.get();
+      deepest = std::max(deepest, part.depth);
+      sum += part.cost;
+      append(wide, first++, part);
+    }
+    return {deepest, sum};
+  }
+
+  // Its root becomes node `root` of `wide`; the others follow what is there.
+  static void append(Subtree& wide, uint32_t root, Subtree& part) {
+    const auto nodes = static_cast<uint32_t>(wide.nodes.size()) - 1;
+    const auto items = static_cast<uint32_t>(wide.order.size());
+    for (gpu::BvhNode& node : part.nodes) {
+      node.firstChild += nodes;
+      node.firstItem += items;
+    }
+    wide.nodes[root] = part.nodes[0];
+    wide.nodes.insert(wide.nodes.end(), part.nodes.begin() + 1, part.nodes.end());
+    wide.order.insert(wide.order.end(), part.order.begin(), part.order.end());
   }
 
   // A slot is a corner of the node: a child goes towards the corner that its center is nearest to, so that slots in the
@@ -246,9 +327,7 @@ private:
   const Bvh& binary_;
   const WideBvhOptions& options_;
   std::vector<Forest> forests_;
-  WideBvh wide_;
   double areaScale_ = 1; // a power of two: it changes no rounding
-  double cost_ = 0;      // sum of half area x cost over children
 };
 
 } // namespace

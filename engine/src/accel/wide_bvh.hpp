@@ -22,6 +22,7 @@ struct WideBvhOptions {
   float nodeCost = 1;
   float itemCost = 1;
   uint32_t maxLeafItems = 3; ///< 1 to 3
+  uint32_t threads = 0;      ///< 0: all cores; the result does not depend on it
 };
 
 /// The cheapest tree of wide nodes that keeps the subtrees of `binary` whole.
