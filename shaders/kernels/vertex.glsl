@@ -34,12 +34,13 @@ bool scattersHere(const uint slot, inout PathState path) {
 
 /// Russian roulette after a scattering. False: the path ends; else its throughput makes up for those that did.
 ///
-/// @param power  probability of survival before it is limited
+/// @param power  the throughput that counts, its brightest channel
 bool survivesRoulette(const float power, const float u, inout PathState path) {
   // Without it nothing but the limit ends a path in a closed room.
   const bool beyond = kDepthLedger != 0u && path.depth > RenderRef(pc.render).view.maxDepth;
   if ((kRussianRoulette == 0u && !beyond) || path.depth < kRouletteDepth) return true;
-  const float survival = min(power, kRouletteMaxSurvival);
+  // The root ends paths later: what a path that goes on costs is less than the noise of one that ended.
+  const float survival = min(sqrt(power), kRouletteMaxSurvival);
   if (u >= survival) return false;
   path.beta /= survival;
   return true;
