@@ -61,8 +61,10 @@ struct PunctualLightRecord {
   uint instance; // sphere: its InstanceRecord
 };
 
-// Piecewise-constant density over an equirectangular map of width x height texels, as cumulative sums in [0, 1]:
-// marginal over rows has height + 1 values, conditional over columns height * (width + 1).
+// An equirectangular map of width x height texels, and the probabilities of its cells as cumulative sums in [0, 1].
+// Cell (column, row) lies between the centers of texel columns column and column + 1, periodic, and of texel rows row -
+// 1 and row; the first and the last row of cells reach to the poles. marginal over rows of cells has height + 2 values,
+// conditional over columns (height + 1) * (width + 1).
 struct EnvironmentRecord {
   Address pixels; // vec3 radiance, row 0 up (+y), intensity applied
   Address marginal;

@@ -25,8 +25,13 @@ double probability(const Environment& map, const EnvironmentDensity& density, ui
          (static_cast<double>(density.conditional[first + 1]) - static_cast<double>(density.conditional[first]));
 }
 
-double rowSolidAngle(const Environment& map, uint32_t y) {
-  return 2 * kPi / map.width * (std::cos(kPi * y / map.height) - std::cos(kPi * (y + 1) / map.height));
+double solidAngle(const Environment& map, double row0, double row1) {
+  return 2 * kPi / map.width * (std::cos(kPi * row0 / map.height) - std::cos(kPi * row1 / map.height));
+}
+
+/// Of a cell: from one row's center to the next one's, at the poles half of that.
+double cellSolidAngle(const Environment& map, uint32_t y) {
+  return solidAngle(map, std::max(y - 0.5, 0.0), std::min(y + 0.5, double(map.height)));
 }
 
 TEST(EnvironmentDensity, ConstantMapIsSampledBySolidAngleAndHasPowerFourPi) {
@@ -35,9 +40,9 @@ TEST(EnvironmentDensity, ConstantMapIsSampledBySolidAngleAndHasPowerFourPi) {
     map.pixels.assign(map.pixels.size(), glm::vec3(2));
     const auto density = environmentDensity(map);
     EXPECT_NEAR(density.power, 8 * kPi, 1e-6);
-    for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t y = 0; y <= height; ++y) {
       for (uint32_t x = 0; x < width; ++x) {
-        const double expected = rowSolidAngle(map, y) / (4 * kPi);
+        const double expected = cellSolidAngle(map, y) / (4 * kPi);
         EXPECT_NEAR(probability(map, density, x, y), expected,
                     2e-6 * expected + 2e-7 * (expected * width + 1.0 / width));
       }
@@ -51,8 +56,8 @@ TEST(EnvironmentDensity, SumsAreIncreasingMultiplesOfTheSamplersStepFromZeroToOn
   Environment map = black(300, 100);
   for (auto& pixel : map.pixels) pixel = glm::vec3(std::pow(value(generator), 8.0f), 0, value(generator));
   const auto density = environmentDensity(map);
-  ASSERT_EQ(density.marginal.size(), 101u);
-  ASSERT_EQ(density.conditional.size(), 100u * 301u);
+  ASSERT_EQ(density.marginal.size(), 102u);
+  ASSERT_EQ(density.conditional.size(), 101u * 301u);
   const auto check = [](const float* sums, size_t count) {
     EXPECT_EQ(sums[0], 0);
     EXPECT_EQ(sums[count], 1);
@@ -64,23 +69,42 @@ TEST(EnvironmentDensity, SumsAreIncreasingMultiplesOfTheSamplersStepFromZeroToOn
       }
     }
   };
-  check(density.marginal.data(), 100);
-  for (size_t y = 0; y < 100; ++y) check(&density.conditional[y * 301], 300);
+  check(density.marginal.data(), 101);
+  for (size_t y = 0; y < 101; ++y) check(&density.conditional[y * 301], 300);
 }
 
-TEST(EnvironmentDensity, IsPositiveExactlyInTheNeighbourhoodOfLight) {
+TEST(EnvironmentDensity, IsPositiveExactlyInTheCellsAroundLight) {
   Environment map = black(16, 8);
-  map.pixels[0] = glm::vec3(0, 0, 1e-30f);         // corner: wraps to column 15, stays in row 0
+  map.pixels[0] = glm::vec3(0, 0, 1e-30f);         // between columns 15 and 1, from the pole to row 1
   map.pixels[5 * 16 + 9] = glm::vec3(1e30f, 0, 0); // 60 decades brighter
-  map.pixels[3 * 16 + 15] = glm::vec3(0, 1, 0);    // wraps to column 0
+  map.pixels[3 * 16 + 15] = glm::vec3(0, 1, 0);    // between columns 14 and 0
   const auto density = environmentDensity(map);
-  for (uint32_t y = 0; y < 8; ++y) {
+  for (uint32_t y = 0; y <= 8; ++y) {
     for (uint32_t x = 0; x < 16; ++x) {
-      const bool nearCorner = y <= 1 && (x <= 1 || x == 15);
-      const bool nearOther = y >= 4 && y <= 6 && x >= 8 && x <= 10;
-      const bool nearSeam = y >= 2 && y <= 4 && (x >= 14 || x == 0);
-      EXPECT_EQ(probability(map, density, x, y) > 0, nearCorner || nearOther || nearSeam) << x << " " << y;
+      const bool atCorner = y <= 1 && (x == 15 || x == 0);
+      const bool atOther = (y == 5 || y == 6) && (x == 8 || x == 9);
+      const bool atSeam = (y == 3 || y == 4) && (x == 14 || x == 15);
+      EXPECT_EQ(probability(map, density, x, y) > 0, atCorner || atOther || atSeam) << x << " " << y;
     }
+  }
+}
+
+TEST(EnvironmentDensity, CellsHaveTheMeanOfTheirCorners) {
+  Environment map = black(4, 3);
+  const float values[3][4] = {{1, 2, 3, 4}, {5, 6, 7, 8}, {9, 10, 11, 12}};
+  for (size_t i = 0; i < 12; ++i) map.pixels[i] = glm::vec3(values[i / 4][i % 4]);
+  const auto density = environmentDensity(map);
+  double total = 0, expected[4][4];
+  for (int y = 0; y <= 3; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const float* above = values[std::max(y - 1, 0)];
+      const float* below = values[std::min(y, 2)];
+      const double mean = double(above[x] + above[(x + 1) % 4] + below[x] + below[(x + 1) % 4]) / 4;
+      total += expected[y][x] = mean * cellSolidAngle(map, static_cast<uint32_t>(y));
+    }
+  }
+  for (uint32_t y = 0; y <= 3; ++y) {
+    for (uint32_t x = 0; x < 4; ++x) EXPECT_NEAR(probability(map, density, x, y), expected[y][x] / total, 1e-6);
   }
 }
 
@@ -97,7 +121,7 @@ TEST(EnvironmentDensity, PowerLeavesIntensityOut) {
   const double power = environmentDensity(map).power;
   map.intensity = 5;
   EXPECT_EQ(environmentDensity(map).power, power);
-  EXPECT_NEAR(power, rowSolidAngle(map, 0), 1e-7);
+  EXPECT_NEAR(power, solidAngle(map, 0, 1), 1e-7);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 namespace isophote {
@@ -38,47 +39,60 @@ double luminanceOf(const glm::vec3& color) {
          0.0722 * static_cast<double>(color.b);
 }
 
-/// Largest luminance in the 3x3 neighbourhoods of one row, periodic in x and clamped in y.
-std::vector<double> neighbourhoodMaxima(const Environment& environment, uint32_t row) {
+/// Means of the four luminances around each cell of a row: of the texel rows on both sides of it, the same one at the
+/// poles. The cell of a column lies between it and the next one, periodic.
+std::vector<double> cellMeans(const Environment& environment, uint32_t cellRow) {
   const size_t width = environment.width;
-  const uint32_t rows[] = {row == 0 ? 0 : row - 1, row, std::min(row + 1, environment.height - 1)};
+  const uint32_t above = cellRow == 0 ? 0 : cellRow - 1, below = std::min(cellRow, environment.height - 1);
   std::vector<double> columns(width, 0.0);
-  for (const uint32_t y : rows) {
+  for (const uint32_t y : {above, below}) {
     const glm::vec3* pixels = &environment.pixels[y * width];
-    for (size_t x = 0; x < width; ++x) columns[x] = std::max(columns[x], luminanceOf(pixels[x]));
+    for (size_t x = 0; x < width; ++x) columns[x] += luminanceOf(pixels[x]);
   }
-  std::vector<double> maxima(width);
-  for (size_t x = 0; x < width; ++x) {
-    maxima[x] = std::max({columns[x == 0 ? width - 1 : x - 1], columns[x], columns[x + 1 == width ? 0 : x + 1]});
-  }
-  return maxima;
+  std::vector<double> means(width);
+  for (size_t x = 0; x < width; ++x) means[x] = 0.25 * (columns[x] + columns[x + 1 == width ? 0 : x + 1]);
+  return means;
 }
 
-/// Solid angle of each texel of a row: 2 pi / width times the difference of the edges' cosines, as a product.
-double texelSolidAngle(const Environment& environment, uint32_t row) {
+/// Between two angles from a pole, of one column: 2 pi / width times the difference of their cosines, as a product.
+double solidAngleBetween(const Environment& environment, double theta0, double theta1) {
+  return 4 * std::numbers::pi / environment.width * std::sin(0.5 * (theta1 + theta0)) *
+         std::sin(0.5 * (theta1 - theta0));
+}
+
+/// Of a cell between the centers of two texel rows; the first and the last row of cells reach from a center to a pole.
+double cellSolidAngle(const Environment& environment, uint32_t cellRow) {
   const double height = environment.height;
-  return 4 * std::numbers::pi / environment.width * std::sin(0.5 * std::numbers::pi / height) *
-         std::sin(std::numbers::pi * (row + 0.5) / height);
+  const double first = std::max(cellRow - 0.5, 0.0), last = std::min(cellRow + 0.5, height);
+  return solidAngleBetween(environment, first * std::numbers::pi / height, last * std::numbers::pi / height);
+}
+
+double powerOf(const Environment& environment) {
+  double power = 0;
+  for (uint32_t row = 0; row < environment.height; ++row) {
+    double sum = 0;
+    for (size_t x = 0; x < environment.width; ++x)
+      sum += luminanceOf(environment.pixels[row * size_t{environment.width} + x]);
+    const double step = std::numbers::pi / environment.height;
+    power += sum * solidAngleBetween(environment, row * step, (row + 1) * step);
+  }
+  return power;
 }
 
 } // namespace
 
 EnvironmentDensity environmentDensity(const Environment& environment) {
   EnvironmentDensity density;
-  std::vector<double> rowWeights;
-  density.conditional.reserve(static_cast<size_t>(environment.height) * (environment.width + size_t{1}));
-  for (uint32_t row = 0; row < environment.height; ++row) {
-    const double solidAngle = texelSolidAngle(environment, row);
-    const std::vector<double> maxima = neighbourhoodMaxima(environment, row);
-    double sum = 0;
-    for (size_t x = 0; x < environment.width; ++x) {
-      sum += maxima[x];
-      density.power += luminanceOf(environment.pixels[row * size_t{environment.width} + x]) * solidAngle;
-    }
-    rowWeights.push_back(sum * solidAngle);
-    appendCumulative(maxima, density.conditional);
-  }
+  density.power = powerOf(environment);
   if (!(density.power > 0)) return {};
+  std::vector<double> rowWeights;
+  const uint32_t cellRows = environment.height + 1;
+  density.conditional.reserve(cellRows * (environment.width + size_t{1}));
+  for (uint32_t row = 0; row < cellRows; ++row) {
+    const std::vector<double> means = cellMeans(environment, row);
+    rowWeights.push_back(std::accumulate(means.begin(), means.end(), 0.0) * cellSolidAngle(environment, row));
+    appendCumulative(means, density.conditional);
+  }
   appendCumulative(rowWeights, density.marginal);
   return density;
 }
