@@ -77,7 +77,8 @@ std::vector<CourseComparison> facets() {
         {"Schlick", "glass 0.2", course("mixture", 10, {{"fresnel", "schlick"}}), 1000}}},
       {"Normals after GGX, Beckmann and Blinn",
        "Beckmann's and Blinn's distributions are other materials, not errors; what the course writes for them is "
-       "(below).",
+       "(below). Half of their directions are drawn by lobe, for their normals never reach what scatters between "
+       "facets.",
        {{"GGX", "metal everywhere", course("ndf", 10)},
         {"Beckmann", "metal everywhere", course("ndf", 10, {{"ndf", "beckmann"}})},
         {"Blinn", "metal everywhere", course("ndf", 10, {{"ndf", "blinn-phong"}})}}},
