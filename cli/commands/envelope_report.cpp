@@ -95,7 +95,7 @@ std::vector<MeasuredSweep> measuredBefore(const std::string& json, const std::ve
         return s.name == entry.at("name").get<std::string>();
       });
       if (sweep == all.end()) continue;
-      MeasuredSweep& measured = result.emplace_back(*sweep);
+      MeasuredSweep& measured = result.emplace_back(MeasuredSweep{*sweep});
       for (const Json& p : entry.at("points")) {
         Point& point = measured.points.emplace_back();
         point.value = p.at("value");
