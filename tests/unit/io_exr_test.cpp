@@ -113,9 +113,8 @@ TEST_F(Exr, SurvivesDamagedBytes) {
   int refused = 0;
   for (int i = 0; i < 400; ++i) {
     std::string bytes = good;
-    // Half of the damage goes to the header. Sizes of attributes stay below 2^16: OpenEXR 3.1 allocates what they say.
-    const size_t at = random() % (i % 2 == 0 ? 360 : bytes.size());
-    bytes[at] = static_cast<char>(random() % 128);
+    const size_t at = random() % (i % 2 == 0 ? 360 : bytes.size()); // half of the damage goes to the header
+    bytes[at] = static_cast<char>(random());
     writeBytes(path("b.exr"), bytes);
     try {
       (void)readExr(path("b.exr"));
@@ -124,6 +123,26 @@ TEST_F(Exr, SurvivesDamagedBytes) {
     }
   }
   EXPECT_GT(refused, 50);
+}
+
+// OpenEXR would make memory of that size.
+TEST_F(Exr, RefusesAttributesLongerThanTheFile) {
+  Image image = noiseImage(5, 4, {"R"});
+  image.attributes["comment"] = "text";
+  writeExr(path("a.exr"), image);
+  std::string bytes = readBytes(path("a.exr"));
+  const std::string type("comment\0string\0", 15);
+  const size_t at = bytes.find(type) + type.size();
+  ASSERT_EQ(bytes.substr(at, 8), std::string("\4\0\0\0text", 8));
+  for (const std::string& size : {std::string("\xff\xff\xff\x7f", 4), std::string("\xff\xff\xff\xff", 4)}) {
+    writeBytes(path("b.exr"), bytes.replace(at, 4, size));
+    try {
+      (void)readExr(path("b.exr"));
+      FAIL();
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("longer than the file"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_F(Exr, NamesWhatCannotBeRead) {

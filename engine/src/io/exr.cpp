@@ -154,8 +154,37 @@ void checkHeader(const std::string& file, uint64_t fileBytes, const Imf::Header&
   }
 }
 
+/// A text of a header, ended by a zero. Empty: the header ends here.
+std::string readName(FileStream& stream) {
+  constexpr size_t kLongest = 255;
+  std::string name;
+  for (char c = 0; name.size() <= kLongest; name += c) {
+    stream.read(&c, 1);
+    if (c == 0) return name;
+  }
+  throw std::runtime_error("an attribute whose name has no end");
+}
+
+/// OpenEXR allocates what an attribute's size says before it reads any of it. Of files of several parts the headers
+/// follow each other, and an empty one ends them.
+void checkAttributeSizes(FileStream& stream, uint64_t fileBytes, bool parts) {
+  bool empty = true;
+  do {
+    empty = true;
+    while (!readName(stream).empty()) {
+      empty = false;
+      (void)readName(stream); // its type
+      int size = 0;
+      Imf::Xdr::read<Imf::StreamIO>(stream, size);
+      if (size < 0 || static_cast<uint64_t>(size) > fileBytes - stream.tellg())
+        throw std::runtime_error("an attribute that is longer than the file");
+      stream.seekg(stream.tellg() + static_cast<uint64_t>(size));
+    }
+  } while (parts && !empty);
+}
+
 /// The first header of the file, read by itself: InputFile would allocate for its size at once.
-Imf::Header readFirstHeader(FileStream& stream) {
+Imf::Header readFirstHeader(FileStream& stream, uint64_t fileBytes) {
   int magic = 0;
   int version = 0;
   Imf::Xdr::read<Imf::StreamIO>(stream, magic);
@@ -164,6 +193,9 @@ Imf::Header readFirstHeader(FileStream& stream) {
   if (Imf::getVersion(version) != Imf::EXR_VERSION || !Imf::supportsFlags(Imf::getFlags(version))) {
     throw std::runtime_error("an OpenEXR version that cannot be read");
   }
+  const uint64_t begin = stream.tellg();
+  checkAttributeSizes(stream, fileBytes, Imf::isMultiPart(version));
+  stream.seekg(begin);
   Imf::Header header;
   header.readFrom(stream, version);
   return header;
@@ -241,7 +273,7 @@ Image readExr(const std::filesystem::path& file) {
     throw SceneError(file.string(), "", "a readable OpenEXR file");
   try {
     const uint64_t bytes = std::filesystem::file_size(file);
-    checkHeader(file.string(), bytes, readFirstHeader(stream));
+    checkHeader(file.string(), bytes, readFirstHeader(stream, bytes));
     stream.seekg(0);
     Imf::InputFile input(stream);
     if (!input.isComplete()) throw std::runtime_error("an OpenEXR file whose writing was not finished");
