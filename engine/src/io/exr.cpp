@@ -168,19 +168,25 @@ std::string readName(FileStream& stream) {
 /// OpenEXR allocates what an attribute's size says before it reads any of it. Of files of several parts the headers
 /// follow each other, and an empty one ends them.
 void checkAttributeSizes(FileStream& stream, uint64_t fileBytes, bool parts) {
+  constexpr uint64_t kAttributesBegin = 8;
+  uint64_t position = kAttributesBegin;
   bool empty = true;
   do {
     empty = true;
-    while (!readName(stream).empty()) {
+    for (std::string name = readName(stream); !name.empty(); name = readName(stream)) {
       empty = false;
-      (void)readName(stream); // its type
+      const std::string type = readName(stream);
       int size = 0;
       Imf::Xdr::read<Imf::StreamIO>(stream, size);
-      if (size < 0 || static_cast<uint64_t>(size) > fileBytes - stream.tellg())
+      position += name.size() + 1 + type.size() + 1 + sizeof(int32_t);
+      if (size < 0 || position > fileBytes || static_cast<uint64_t>(size) > fileBytes - position)
         throw std::runtime_error("an attribute that is longer than the file");
-      stream.seekg(stream.tellg() + static_cast<uint64_t>(size));
+      position += static_cast<uint64_t>(size);
+      stream.seekg(position);
     }
+    ++position;
   } while (parts && !empty);
+  stream.seekg(kAttributesBegin);
 }
 
 /// The first header of the file, read by itself: InputFile would allocate for its size at once.
@@ -193,9 +199,7 @@ Imf::Header readFirstHeader(FileStream& stream, uint64_t fileBytes) {
   if (Imf::getVersion(version) != Imf::EXR_VERSION || !Imf::supportsFlags(Imf::getFlags(version))) {
     throw std::runtime_error("an OpenEXR version that cannot be read");
   }
-  const uint64_t begin = stream.tellg();
   checkAttributeSizes(stream, fileBytes, Imf::isMultiPart(version));
-  stream.seekg(begin);
   Imf::Header header;
   header.readFrom(stream, version);
   return header;
