@@ -1,6 +1,7 @@
 #include "rendering/receipt.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,14 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// nlohmann's own conversion takes fractions and numbers of any size: undefined.
+uint32_t wholeNumber(const Json& json) {
+  const auto& value = json.get_ref<const Json::number_unsigned_t&>();
+  if (value > std::numeric_limits<uint32_t>::max())
+    throw UsageError(fmt::format("isophote.settings: {} is too large a number", value));
+  return static_cast<uint32_t>(value);
+}
+
 /// What requestJson of render_report.cpp puts beside the settings.
 void readRequest(const Json& request, Receipt& receipt) {
   for (const auto& [key, value] : request.items()) {
@@ -20,17 +29,17 @@ void readRequest(const Json& request, Receipt& receipt) {
       setSetting(receipt.settings, key, value.get<std::string>());
   }
   const Json& image = request.at("image");
-  receipt.width = image.at("width");
-  receipt.height = image.at("height");
+  receipt.width = wholeNumber(image.at("width"));
+  receipt.height = wholeNumber(image.at("height"));
   const Json& crop = image.at("crop");
-  receipt.crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
-  if (request.contains("camera_index")) receipt.camera.index = request.at("camera_index").get<size_t>();
+  receipt.crop = {wholeNumber(crop.at(0)), wholeNumber(crop.at(1)), wholeNumber(crop.at(2)), wholeNumber(crop.at(3))};
+  if (request.contains("camera_index")) receipt.camera.index = wholeNumber(request.at("camera_index"));
   receipt.camera.panorama = request.contains("panorama");
   if (request.contains("lens")) {
     const Json& lens = request.at("lens");
     receipt.camera.lensRadius = lens.at("radius");
     receipt.camera.focusDistance = lens.at("focus_distance");
-    receipt.camera.apertureBlades = lens.at("aperture_blades");
+    receipt.camera.apertureBlades = wholeNumber(lens.at("aperture_blades"));
   }
   if (request.contains("backend")) receipt.backend = backendFromName(request.at("backend").get<std::string>());
   if (request.contains("variant")) receipt.variant = request.at("variant").get<std::string>();

@@ -145,6 +145,30 @@ TEST_F(Exr, RefusesAttributesLongerThanTheFile) {
   }
 }
 
+// OpenEXR reads on where a value ended, and would take the bytes behind it for the size of the next one.
+TEST_F(Exr, RefusesAttributesOfAnotherSizeThanTheirValue) {
+  Image image = noiseImage(5, 4, {"R"});
+  image.renderSeconds = 1;
+  writeExr(path("a.exr"), image);
+  const std::string whole = readBytes(path("a.exr"));
+  for (const std::string& type : {std::string("renderTime\0float\0", 17), std::string("channels\0chlist\0", 16),
+                                  std::string("compression\0compression\0", 24)}) {
+    const size_t at = whole.find(type) + type.size();
+    ASSERT_LT(at, whole.size());
+    for (const int off : {-1, 1, 16}) {
+      std::string bytes = whole;
+      bytes[at] = static_cast<char>(bytes[at] + off);
+      writeBytes(path("b.exr"), bytes);
+      try {
+        (void)readExr(path("b.exr"));
+        ADD_FAILURE() << type << off;
+      } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("has not the size"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
 TEST_F(Exr, NamesWhatCannotBeRead) {
   writeBytes(path("text.exr"), "this is not an image, but long enough for one");
   for (const char* name : {"absent.exr", "text.exr", "."}) {

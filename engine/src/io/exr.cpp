@@ -23,6 +23,7 @@
 #include <ImfXdr.h>
 
 #include "io/atomic_file.hpp"
+#include "io/exr_attributes.hpp"
 #include "isophote/error.hpp"
 #include "isophote/image.hpp"
 
@@ -154,43 +155,8 @@ void checkHeader(const std::string& file, uint64_t fileBytes, const Imf::Header&
   }
 }
 
-/// A text of a header, ended by a zero. Empty: the header ends here.
-std::string readName(FileStream& stream) {
-  constexpr size_t kLongest = 255;
-  std::string name;
-  for (char c = 0; name.size() <= kLongest; name += c) {
-    stream.read(&c, 1);
-    if (c == 0) return name;
-  }
-  throw std::runtime_error("an attribute whose name has no end");
-}
-
-/// OpenEXR allocates what an attribute's size says before it reads any of it. Of files of several parts the headers
-/// follow each other, and an empty one ends them.
-void checkAttributeSizes(FileStream& stream, uint64_t fileBytes, bool parts) {
-  constexpr uint64_t kAttributesBegin = 8;
-  uint64_t position = kAttributesBegin;
-  bool empty = true;
-  do {
-    empty = true;
-    for (std::string name = readName(stream); !name.empty(); name = readName(stream)) {
-      empty = false;
-      const std::string type = readName(stream);
-      int size = 0;
-      Imf::Xdr::read<Imf::StreamIO>(stream, size);
-      position += name.size() + 1 + type.size() + 1 + sizeof(int32_t);
-      if (size < 0 || position > fileBytes || static_cast<uint64_t>(size) > fileBytes - position)
-        throw std::runtime_error("an attribute that is longer than the file");
-      position += static_cast<uint64_t>(size);
-      stream.seekg(position);
-    }
-    ++position;
-  } while (parts && !empty);
-  stream.seekg(kAttributesBegin);
-}
-
 /// The first header of the file, read by itself: InputFile would allocate for its size at once.
-Imf::Header readFirstHeader(FileStream& stream, uint64_t fileBytes) {
+Imf::Header readFirstHeader(const std::filesystem::path& file, FileStream& stream) {
   int magic = 0;
   int version = 0;
   Imf::Xdr::read<Imf::StreamIO>(stream, magic);
@@ -199,7 +165,7 @@ Imf::Header readFirstHeader(FileStream& stream, uint64_t fileBytes) {
   if (Imf::getVersion(version) != Imf::EXR_VERSION || !Imf::supportsFlags(Imf::getFlags(version))) {
     throw std::runtime_error("an OpenEXR version that cannot be read");
   }
-  checkAttributeSizes(stream, fileBytes, Imf::isMultiPart(version));
+  io::checkExrAttributes(file, Imf::isMultiPart(version));
   Imf::Header header;
   header.readFrom(stream, version);
   return header;
@@ -277,7 +243,7 @@ Image readExr(const std::filesystem::path& file) {
     throw SceneError(file.string(), "", "a readable OpenEXR file");
   try {
     const uint64_t bytes = std::filesystem::file_size(file);
-    checkHeader(file.string(), bytes, readFirstHeader(stream, bytes));
+    checkHeader(file.string(), bytes, readFirstHeader(file, stream));
     stream.seekg(0);
     Imf::InputFile input(stream);
     if (!input.isComplete()) throw std::runtime_error("an OpenEXR file whose writing was not finished");

@@ -13,6 +13,7 @@
 #include "io/atomic_file.hpp"
 #include "isophote/error.hpp"
 #include "render/film_head.hpp"
+#include "render/whole_number.hpp"
 
 namespace isophote {
 namespace {
@@ -56,7 +57,8 @@ Json headOf(const Checkpoint& checkpoint) {
 
 Checkpoint fromHead(const Json& head) {
   return {.identity = head.at("identity"),
-          .left = {head.at("left").at(0), head.at("left").at(1), head.at("left").at(2)},
+          .left = {wholeNumber<uint32_t>(head.at("left").at(0)), wholeNumber<uint32_t>(head.at("left").at(1)),
+                   wholeNumber<uint64_t>(head.at("left").at(2))},
           .seconds = head.at("seconds"),
           .sums = filmFromHead(head.at("film"))};
 }
@@ -106,7 +108,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
     const auto* at = reinterpret_cast<const std::byte*>(bytes.data()) + start + length;
     size_t left = bytes.size() - start - length;
     const auto take = [&](const char* size, std::vector<std::byte>& to) {
-      const size_t count = head.at(size);
+      const auto count = wholeNumber<size_t>(head.at(size));
       if (count > left) throw std::runtime_error("the film is of another size");
       to.assign(at, at + count);
       at += count;

@@ -3,13 +3,15 @@
 #include <bit>
 #include <cstdint>
 
+#include "render/whole_number.hpp"
+
 namespace isophote {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 Json bits(double value) { return std::bit_cast<uint64_t>(value); }
-double fromBits(const Json& json) { return std::bit_cast<double>(json.get<uint64_t>()); }
+double fromBits(const Json& json) { return std::bit_cast<double>(wholeNumber<uint64_t>(json)); }
 
 } // namespace
 
@@ -27,10 +29,11 @@ Json filmHead(const FilmSums& sums) {
 
 FilmSums filmFromHead(const Json& head) {
   FilmSums sums;
-  sums.options.width = head.at("size").at(0);
-  sums.options.height = head.at("size").at(1);
+  const auto number = [](const Json& json) { return wholeNumber<uint32_t>(json); };
+  sums.options.width = number(head.at("size").at(0));
+  sums.options.height = number(head.at("size").at(1));
   const Json& crop = head.at("crop");
-  sums.options.crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
+  sums.options.crop = {number(crop.at(0)), number(crop.at(1)), number(crop.at(2)), number(crop.at(3))};
   sums.options.aovs = head.at("aovs");
   sums.options.clampLedger = head.at("clamp_ledger");
   sums.options.depthLedger = head.at("depth_ledger");

@@ -66,7 +66,7 @@ FilmSums storedSums(const Image& image) {
   FilmSums sums;
   try {
     sums = filmFromHead(Json::parse(head->second));
-  } catch (const Json::exception& error) {
+  } catch (const std::exception& error) {
     throw UsageError(std::string(kAttribute) + ": " + error.what());
   }
   const PixelRect& crop = sums.options.crop;
