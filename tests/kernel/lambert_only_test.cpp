@@ -53,7 +53,7 @@ void expectSameKernel(const FeatureSet& features) {
   for (const auto* counts : {&product, &control}) {
     for (const auto& [opcode, count] : *counts) {
       if (!isWork(opcode)) continue;
-      const auto of = [&](const OpcodeCounts& all) { return all.contains(opcode) ? all.at(opcode) : 0; };
+      const auto of = [work = opcode](const OpcodeCounts& all) { return all.contains(work) ? all.at(work) : 0; };
       EXPECT_EQ(of(product), of(control)) << "opcode " << opcode;
     }
   }
