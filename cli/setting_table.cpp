@@ -138,8 +138,24 @@ std::vector<SettingEntry> makeTable() {
       choice({"mis-heuristic", "power, balance", "power", "power", "weights of multiple importance sampling"},
              estimator, &E::misHeuristic, {{"power", MisHeuristic::Power}, {"balance", MisHeuristic::Balance}}),
       choice(
-          {"russian-roulette", "on, off", "on", "on", "end dim paths at random, without bias; off needs a max-depth"},
-          estimator, &E::russianRoulette, onOff),
+          {"russian-roulette", "on, throughput, off", "on", "on",
+           "end dim paths at random, without bias: they go on with the chance of the root of their throughput, or of "
+           "the throughput itself (shorter paths, more noise); off needs a max-depth"},
+          estimator, &E::russianRoulette,
+          {{"on", RussianRoulette::Root}, {"throughput", RussianRoulette::Throughput}, {"off", RussianRoulette::Off}}),
+      choice({"intersection", "watertight, fast", "watertight", "fast",
+              "rays against triangles: none passes between two that share an edge, or some do (bias)"},
+             estimator, &E::intersection, {{"watertight", Intersection::Watertight}, {"fast", Intersection::Fast}}),
+      choice({"ray-offset", "bound, fixed", "bound", "fixed",
+              "where rays leave a surface: just beyond the error of its point, or 1e-4 scene units above it (bias)"},
+             estimator, &E::rayOffset, {{"bound", RayOffset::Bound}, {"fixed", RayOffset::Fixed}}),
+      choice(
+          {"trigonometry", "own, device", "own", "device",
+           "sines, cosines and angles: own polynomials, or the device's functions, which may be off by 1/2048 (bias)"},
+          estimator, &E::trigonometry, {{"own", Trigonometry::Own}, {"device", Trigonometry::Device}}),
+      choice({"texture-filter", "asset, nearest", "asset", "nearest",
+              "textures of materials: filtered as the asset says, or the nearest texel (bias)"},
+             estimator, &E::textureFilter, {{"asset", TextureFilter::Asset}, {"nearest", TextureFilter::Nearest}}),
       choice({"multiple-scattering", "on, off", "on", "on",
               "light scattered more than once between the facets of a rough surface; off loses it (bias)"},
              estimator, &E::multipleScattering, onOff),
@@ -235,6 +251,25 @@ nlohmann::ordered_json biasJson(const Settings& settings) {
     json["fresnel"] = {{"value", "schlick"},
                        {"exact", "gltf"},
                        {"leaves_out", "the difference of glass's reflectance from Schlick's approximation"}};
+  }
+  if (settings.estimator.intersection != Intersection::Watertight) {
+    json["intersection"] = {{"value", "fast"},
+                            {"exact", "watertight"},
+                            {"leaves_out", "hits at the edges of triangles, where rays pass between them"}};
+  }
+  if (settings.estimator.rayOffset != RayOffset::Bound) {
+    json["ray-offset"] = {{"value", "fixed"},
+                          {"exact", "bound"},
+                          {"leaves_out", "what lies within 1e-4 scene units of a surface, and surfaces found twice"}};
+  }
+  if (settings.estimator.trigonometry != Trigonometry::Own) {
+    json["trigonometry"] = {{"value", "device"},
+                            {"exact", "own"},
+                            {"leaves_out", "directions to better than the device's sines and cosines"}};
+  }
+  if (settings.estimator.textureFilter != TextureFilter::Asset) {
+    json["texture-filter"] = {
+        {"value", "nearest"}, {"exact", "asset"}, {"leaves_out", "the filter that the asset gives its textures"}};
   }
   if (settings.layers.denoiser != Denoiser::None) {
     json["denoiser"] = {{"value", "atrous"},

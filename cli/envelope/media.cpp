@@ -61,7 +61,7 @@ Case scatteringAll(double depth) {
   // Roulette ends one path in a thousand scatterings, and the others' weights grow: much noise where they are as many
   // as in deep blocks. Without it the longest paths are as many scatterings as the depth squared.
   if (depth <= 100) {
-    c.estimator.russianRoulette = false;
+    c.estimator.russianRoulette = RussianRoulette::Off;
     c.estimator.maxDepth = 1 << 20;
   }
   c.fewestSamples = 64;

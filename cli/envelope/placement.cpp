@@ -26,7 +26,7 @@ Case cavity() {
          .estimator = {.filter = PixelFilter::Box,
                        .lightSampling = LightSampling::BsdfOnly,
                        .maxDepth = 64,
-                       .russianRoulette = false},
+                       .russianRoulette = RussianRoulette::Off},
          .exact = 2};
   const uint32_t clear = addMaterial(c.scene, glass(0));
   const uint32_t mirror = addMaterial(c.scene, metal(glm::vec3(1), 0));

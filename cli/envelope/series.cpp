@@ -17,7 +17,7 @@ Case room(float emitted, float reflectance) {
 Case lossless(double depth) {
   Case c = room(1, 1);
   c.estimator.maxDepth = static_cast<uint32_t>(depth);
-  c.estimator.russianRoulette = false;
+  c.estimator.russianRoulette = RussianRoulette::Off;
   c.exact = depth + 1;
   c.fewestSamples = c.mostSamples = depth > 1000 ? 8 : 64;
   return c;
@@ -29,7 +29,7 @@ Case series(double albedo) {
   Case c = room(1 - given, given);
   const double rho = static_cast<double>(given);
   c.estimator.maxDepth = static_cast<uint32_t>(std::min(10000.0, std::ceil(std::log(1e-5) / std::log(rho))));
-  c.estimator.russianRoulette = false;
+  c.estimator.russianRoulette = RussianRoulette::Off;
   c.exact = 1 - std::pow(rho, c.estimator.maxDepth + 1.0);
   c.fewestSamples = c.mostSamples = c.estimator.maxDepth > 1000 ? 8 : 64;
   return c;

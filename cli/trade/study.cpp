@@ -305,17 +305,21 @@ private:
     if (list.empty() || interrupted()) return;
     std::vector<ErrorSplitter> splitters(list.size(), *splitter_);
     std::vector<std::vector<double>> seconds(list.size());
-    const double share =
-        std::max(plan_.seconds - elapsed_(), 0.0) / static_cast<double>(std::max<size_t>(list.size(), 1));
-    for (Recommendation& r : list) {
+    constexpr int kRuns = 2;
+    constexpr double kMargin = 0.85; // the machine may be slower than it was
+    double left = kMargin * std::max(plan_.seconds - elapsed_(), 0.0);
+    for (size_t i = 0; i < list.size(); ++i) { // the draft first, which leaves most of its share to the others
+      Recommendation& r = list[i];
       const Measurement& m = study_.measurements[r.measurement];
       const double perSample = m.seconds().value / m.samples();
-      r.confirmedSamples = std::min(r.samples, wholeSamples(0.85 * share / 2 / perSample));
+      const double share = left / static_cast<double>(list.size() - i);
+      r.confirmedSamples = std::min(r.samples, wholeSamples(share / kRuns / perSample));
       r.forecastSeconds = perSample * r.confirmedSamples;
+      left -= kRuns * r.forecastSeconds;
       const double noiseSquare = m.split.noiseSquare.value * m.samples() / r.confirmedSamples;
       r.forecastError = std::sqrt(noiseSquare + study_.tradeOff(r.measurement).biasSquare);
     }
-    for (int run = 0; run < 2; ++run) {
+    for (int run = 0; run < kRuns; ++run) {
       for (size_t i = 0; i < list.size(); ++i) {
         progress_(fmt::format("confirming {} with fresh seeds", list[i].purpose));
         const Configuration& configuration = study_.measurements[list[i].measurement].configuration;

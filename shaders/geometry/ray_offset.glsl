@@ -4,6 +4,10 @@
 
 #include "geometry/affine.glsl"
 #include "geometry/float_steps.glsl"
+#include "shared/constants.glsl"
+
+// Of the setting ray-offset=fixed, in scene units: wrong at some scale, as every such distance.
+const float kFixedRayOffset = 1e-4;
 
 // A point and how far, per axis, the exact one may be from it.
 struct HitPoint {
@@ -44,6 +48,7 @@ HitPoint hitPointToWorld(const HitPoint hit, const Affine worldFromObject, const
 /// @param w   direction of the ray, any length
 /// Accuracy: bit-equal to the same operations in C++, tests/glsl/offset_test.cpp.
 vec3 offsetRayOrigin(const vec3 p, const vec3 pError, const vec3 ng, const vec3 w) {
+  if (kRayOffset == 1u) return p + (dot(w, ng) < 0.0 ? -kFixedRayOffset : kFixedRayOffset) * ng;
   precise float distance = (abs(ng.x) * pError.x + abs(ng.y) * pError.y) + abs(ng.z) * pError.z;
   const float side = dot(w, ng) < 0.0 ? -distance : distance;
   precise vec3 offset = side * ng;

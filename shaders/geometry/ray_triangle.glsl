@@ -5,6 +5,7 @@
 #include "geometry/exact_product.glsl"
 #include "geometry/float_steps.glsl"
 #include "geometry/triangle_normal.glsl"
+#include "shared/constants.glsl"
 
 struct TriangleRay {
   vec3 origin;
@@ -101,6 +102,23 @@ float distanceAhead(const TriangleRay ray, const vec3 v0, const vec3 v1, const v
   return ahead > error ? ahead / abs(speed) : 0.0;
 }
 
+/// Two-sided test of the setting intersection=fast: both triangles at an edge may miss a ray that meets it, and a
+/// triangle may be found behind its own ray's origin by rounding.
+///
+/// Source: Moeller, Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1).
+TriangleHit intersectTriangleFast(const TriangleRay ray, const vec3 v0, const vec3 v1, const vec3 v2) {
+  const vec3 edge1 = v1 - v0;
+  const vec3 edge2 = v2 - v0;
+  const vec3 across = cross(ray.direction, edge2);
+  const float inverse = 1.0 / dot(edge1, across); // infinite where the triangle is seen edge-on: no comparison holds
+  const vec3 from = ray.origin - v0;
+  const float b1 = dot(from, across) * inverse;
+  const vec3 turned = cross(from, edge1);
+  const float b2 = dot(ray.direction, turned) * inverse;
+  const float t = dot(edge2, turned) * inverse;
+  return TriangleHit(b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && t > 0.0, t, vec2(b1, b2));
+}
+
 /// Two-sided watertight test.
 ///
 /// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1). Their double-precision fallback
@@ -109,6 +127,7 @@ float distanceAhead(const TriangleRay ray, const vec3 v0, const vec3 v1, const v
 /// @param v0, v1, v2  in the ray's space, |coordinate| <= 2^60
 /// @return            t in units of the direction's length; found only where the triangle is certainly ahead
 TriangleHit intersectTriangle(const TriangleRay ray, const vec3 v0, const vec3 v1, const vec3 v2) {
+  if (kIntersection == 1u) return intersectTriangleFast(ray, v0, v1, v2);
   TriangleHit hit;
   hit.found = false;
   hit.t = 0.0;

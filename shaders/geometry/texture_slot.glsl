@@ -8,6 +8,12 @@
 
 layout(set = 0, binding = 0) uniform sampler2D textures[];
 
+/// The centre of the texel that holds uv: there every filter gives that texel alone.
+vec2 texelCentre(const uint index, const vec2 uv) {
+  const vec2 size = vec2(textureSize(textures[nonuniformEXT(index)], 0));
+  return (floor(uv * size) + 0.5) / size;
+}
+
 /// The texel of slot `slot` at a point of a triangle, level 0, decoded to linear; `fallback` where there is no slot.
 /// @param slot  index into the TextureSlot array, or kInvalidIndex
 vec4 readSlot(const SceneRef scene, const Geometry geometry, const uint primitiveIndex, const vec2 barycentrics,
@@ -16,7 +22,9 @@ vec4 readSlot(const SceneRef scene, const Geometry geometry, const uint primitiv
     if (slot != kInvalidIndex) {
       const TextureSlot use = TextureSlotRef(scene.view.textureSlots).items[slot];
       const vec3 uv = vec3(interpolateUv(scene, geometry, primitiveIndex, barycentrics, use.uvSet), 1.0);
-      return textureLod(textures[nonuniformEXT(use.texture)], vec2(dot(use.uRow, uv), dot(use.vRow, uv)), 0.0);
+      vec2 at = vec2(dot(use.uRow, uv), dot(use.vRow, uv));
+      if (kTextureFilter == 1u) at = texelCentre(use.texture, at);
+      return textureLod(textures[nonuniformEXT(use.texture)], at, 0.0);
     }
   }
   return fallback;

@@ -40,7 +40,8 @@ bool survivesRoulette(const float power, const float u, inout PathState path) {
   const bool beyond = kDepthLedger != 0u && path.depth > RenderRef(pc.render).view.maxDepth;
   if ((kRussianRoulette == 0u && !beyond) || path.depth < kRouletteDepth) return true;
   // The root ends paths later: what a path that goes on costs is less than the noise of one that ended.
-  const float survival = min(sqrt(power), kRouletteMaxSurvival);
+  const float chance = kRussianRoulette == 2u ? power : sqrt(power);
+  const float survival = min(chance, kRouletteMaxSurvival);
   if (u >= survival) return false;
   path.beta /= survival;
   return true;

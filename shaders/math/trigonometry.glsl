@@ -3,6 +3,9 @@
 #ifndef ISOPHOTE_MATH_TRIGONOMETRY_GLSL
 #define ISOPHOTE_MATH_TRIGONOMETRY_GLSL
 
+#include "math/constants.glsl"
+#include "shared/constants.glsl"
+
 /// Sine and cosine of pi x.
 ///
 /// The argument is reduced exactly to [-1/4, 1/4]; the polynomials interpolate sin(pi r)/r and cos(pi r) in r^2 at the
@@ -11,6 +14,10 @@
 /// @return   vec2 (sin(pi x), cos(pi x)); exact at multiples of 1/2
 /// Accuracy: <= 4 ulp or 1e-7 absolute against double, measured in tests/glsl/trig_test.cpp.
 vec2 sinCosPi(float x) {
+  if (kTrigonometry == 1u) {
+    const float angle = kPi * (abs(x) > 1.0 ? x - 2.0 * sign(x) : x); // beyond pi Vulkan promises nothing
+    return vec2(sin(angle), cos(angle));
+  }
   const float quadrant = floor(2.0 * x + 0.5);
   const float r = x - 0.5 * quadrant;
   const float z = r * r;
@@ -30,6 +37,7 @@ vec2 sinCosPi(float x) {
 /// Accuracy: <= 1e-6 relative against double where the larger coordinate is at least 2^-100, measured in
 /// tests/glsl/trig_test.cpp.
 float atan2Pi(float y, float x) {
+  if (kTrigonometry == 1u) return x == 0.0 && y == 0.0 ? 0.0 : atan(y, x) * kInvPi;
   const float ax = abs(x);
   const float ay = abs(y);
   const float t = min(ax, ay) / max(max(ax, ay), 7.9e-31); // the divisor stays above 2^-100

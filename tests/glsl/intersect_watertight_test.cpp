@@ -6,6 +6,8 @@
 
 #include "glsl/traversal_case.h"
 #include "glsl/traversal_scene.hpp"
+#include "isophote/settings.hpp"
+#include "render/setting_ids.hpp"
 #include "support/gpu_device.hpp"
 #include "support/probe.hpp"
 #include "test_glsl_kernels.hpp"
@@ -25,7 +27,8 @@ struct Misses {
 };
 
 // Aims rays from around `center` at vertices, edges and insides of the mesh in equal parts, and at random.
-Misses countMisses(const Scene& scene, glm::vec3 center, float spread, uint32_t count, uint32_t seed) {
+Misses countMisses(const Scene& scene, glm::vec3 center, float spread, uint32_t count, uint32_t seed,
+                   std::span<const gpu::SpecConstant> settings = {}) {
   const GpuScene gpuScene(test::gpuDevice(), scene);
   const glm::dvec3 shift = gpuScene.impl().worldOrigin;
   const glm::dmat4& worldFromObject = scene.instances[0].worldFromObject;
@@ -49,8 +52,8 @@ Misses countMisses(const Scene& scene, glm::vec3 center, float spread, uint32_t 
     rays.push_back({.origin = origin, .direction = direction, .tMax = 3.402823466e38f});
   }
   Misses misses;
-  for (const TraversalResult& result :
-       test::runOnScene<TraversalResult>(test_glsl_kernels::kernelSource("traversal_probe"), gpuScene, rays)) {
+  for (const TraversalResult& result : test::runOnScene<TraversalResult>(
+           test_glsl_kernels::kernelSource("traversal_probe"), gpuScene, rays, settings)) {
     misses.closest += result.found == 0;
     misses.occlusion += result.occluded == 0;
   }
@@ -66,6 +69,14 @@ TEST(Watertight, NoRayLeavesASphereAtTheOrigin) {
     EXPECT_EQ(misses.closest, 0u);
     EXPECT_EQ(misses.occlusion, 0u);
   }
+}
+
+// What intersection=fast trades away: of these rays, half are aimed at vertices or edges.
+TEST(Watertight, TheFastTestLosesRaysAtEdges) {
+  const gpu::SpecConstant fast[] = {{setting_id::kIntersection, static_cast<uint32_t>(Intersection::Fast)}};
+  const Misses misses =
+      countMisses(test::sceneOf({test::sphereMesh({0, 0, 0}, 2, 100)}), {0, 0, 0}, 0.5f, 200000, 1, fast);
+  EXPECT_GT(misses.closest, 0u);
 }
 
 TEST(Watertight, NoRayLeavesASphereWithFarVertices) {

@@ -7,8 +7,10 @@
 #include "glsl/material_case.h"
 #include "gpu/texture_array.hpp"
 #include "isophote/features.hpp"
+#include "isophote/settings.hpp"
 #include "oracle/bsdf_metallic_roughness.hpp"
 #include "oracle/bsdf_shading_normal.hpp"
+#include "render/setting_ids.hpp"
 #include "shared/geometry_types.h"
 #include "shared/material_types.h"
 #include "shared/scene_view.h"
@@ -41,13 +43,13 @@ double linearFromSrgb(int value) { // IEC 61966-2-1
 // 4: every extension with its textures.
 class MaterialScene {
 public:
-  MaterialScene() {
+  explicit MaterialScene(Filter filter = Filter::Nearest) {
     images_ = {twoTexels({188, 255, 0, 255}, {255, 64, 128, 255}), twoTexels({7, 102, 204, 9}, {0, 255, 51, 0}),
                twoTexels({128, 128, 255, 255}, {200, 80, 180, 255}), twoTexels({0, 0, 0, 51}, {255, 255, 255, 204}),
                twoTexels({255, 188, 0, 255}, {128, 255, 255, 255})};
     std::vector<gpu::TextureUpload> uploads;
     for (size_t i = 0; i < images_.size(); ++i) {
-      uploads.push_back({.image = &images_[i], .filter = Filter::Nearest, .srgb = i == 0 || i == 4});
+      uploads.push_back({.image = &images_[i], .filter = filter, .srgb = i == 0 || i == 4});
     }
     textures_ = gpu::TextureArray(test::gpuDevice(), uploads);
 
@@ -207,6 +209,23 @@ TEST(Material, TakesEachFactorFromItsTextureChannel) {
               oracle::metallicRoughness({0.8, 0.2 * linearFromSrgb(64), 0.2 * linearFromSrgb(128)}, 0.5 * 51 / 255.0,
                                         0.6, 1.4, 0.9 * 204 / 255.0, {linearFromSrgb(128), 0.5, 0.25}),
               1e-3);
+}
+
+TEST(Material, TheNearestTexelOfASmoothTextureIsThatOfANearestOne) {
+  const gpu::SpecConstant nearest[] = {{setting_id::kTextureFilter, static_cast<uint32_t>(TextureFilter::Nearest)}};
+  std::vector<MaterialCase> cases;
+  for (int i = -20; i < 30; ++i) cases.push_back(caseOf(1, {static_cast<float>(i) / 10 + 0.03f, 0.2f})); // repeated too
+  const MaterialScene smooth(Filter::Linear);
+  const auto expected = MaterialScene().evaluate(cases);
+  const auto actual = smooth.evaluate(cases, nearest);
+  const auto blended = smooth.evaluate(cases);
+  size_t different = 0;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(actual[i].baseColor, expected[i].baseColor) << i;
+    EXPECT_EQ(actual[i].alpha, expected[i].alpha) << i;
+    different += blended[i].alpha != expected[i].alpha;
+  }
+  EXPECT_GT(different, cases.size() / 2);
 }
 
 TEST(Material, NormalMapTurnsInTheTangentFrame) {

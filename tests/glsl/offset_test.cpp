@@ -7,6 +7,8 @@
 
 #include "glsl/offset_case.h"
 #include "glsl/traversal_scene.hpp"
+#include "isophote/settings.hpp"
+#include "render/setting_ids.hpp"
 #include "support/probe.hpp"
 #include "test_glsl_kernels.hpp"
 
@@ -111,6 +113,25 @@ TEST(RayOffset, EqualsTheReferenceBitForBit) {
   size_t different = 0;
   for (size_t i = 0; i < cases.size(); ++i) different += !sameBits(results[i].origin, referenceOrigin(cases[i]));
   EXPECT_EQ(different, 0u);
+}
+
+TEST(RayOffset, TheFixedOneIsTheSameEverywhere) {
+  const gpu::SpecConstant fixed[] = {{setting_id::kRayOffset, static_cast<uint32_t>(isophote::RayOffset::Fixed)}};
+  std::mt19937 random(44);
+  std::vector<OffsetCase> cases(1000);
+  for (OffsetCase& c : cases) {
+    c.p = test::randomDirection(random);
+    c.pError = glm::vec3(1e-3f);
+    c.ng = test::randomDirection(random);
+    c.w = test::randomDirection(random);
+  }
+  const auto results =
+      test::runProbe<OffsetCase, OffsetResult>(test_glsl_kernels::kernelSource("offset_probe"), cases, 0, fixed);
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const glm::vec3 moved = results[i].origin - cases[i].p;
+    ASSERT_NEAR(glm::length(moved), 1e-4, 2e-7); // roundings of coordinates up to 1
+    ASSERT_GE(glm::dot(moved, cases[i].ng) * glm::dot(cases[i].w, cases[i].ng), 0);
+  }
 }
 
 TEST(RayOffset, NoRayMeetsTheTriangleItLeaves) {

@@ -51,8 +51,10 @@ struct ReferenceHit {
 /// Runs a probe whose pc.extra is the scene, specialised for the scene's features.
 template <class Out, class In>
 [[nodiscard]] std::vector<Out> runOnScene(const gpu::KernelSource& source, const GpuScene& scene,
-                                          const std::vector<In>& inputs) {
-  const std::vector<gpu::SpecConstant> constants = featureConstants(scene.features());
+                                          const std::vector<In>& inputs,
+                                          std::span<const gpu::SpecConstant> settings = {}) {
+  std::vector<gpu::SpecConstant> constants = featureConstants(scene.features());
+  constants.insert(constants.end(), settings.begin(), settings.end());
   return runProbe<In, Out>(
       source, inputs,
       {.extra = scene.impl().view.address(), .constants = constants, .textures = &scene.impl().textures});

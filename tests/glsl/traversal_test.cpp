@@ -5,6 +5,8 @@
 
 #include "glsl/traversal_case.h"
 #include "glsl/traversal_scene.hpp"
+#include "isophote/settings.hpp"
+#include "render/setting_ids.hpp"
 #include "support/gpu_device.hpp"
 #include "support/probe.hpp"
 #include "support/statistics.hpp"
@@ -17,9 +19,10 @@ using gpu::TraversalResult;
 
 namespace {
 
-std::vector<TraversalResult> trace(const Scene& scene, const std::vector<TraversalCase>& rays) {
+std::vector<TraversalResult> trace(const Scene& scene, const std::vector<TraversalCase>& rays,
+                                   std::span<const gpu::SpecConstant> settings = {}) {
   return test::runOnScene<TraversalResult>(test_glsl_kernels::kernelSource("traversal_probe"),
-                                           GpuScene(test::gpuDevice(), scene), rays);
+                                           GpuScene(test::gpuDevice(), scene), rays, settings);
 }
 
 TraversalCase ray(glm::vec3 origin, glm::vec3 direction, float tMax = 3.402823466e38f) {
@@ -40,8 +43,8 @@ std::vector<TraversalCase> randomRays(uint32_t count, float spread, uint32_t see
 // Every ray that brute force in double decides with some margin must come out the same. t carries the roundings of
 // coordinates as large as `reach`: some 50 of 2^-24, and more where the ray meets the triangle at a flat angle.
 void expectBruteForceHits(const Scene& scene, const std::vector<TraversalCase>& rays, double reach,
-                          double shareOfHits = 0.2) {
-  const std::vector<TraversalResult> results = trace(scene, rays);
+                          double shareOfHits = 0.2, std::span<const gpu::SpecConstant> settings = {}) {
+  const std::vector<TraversalResult> results = trace(scene, rays, settings);
   uint32_t hits = 0, misses = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
     const TraversalResult& result = results[i];
@@ -85,6 +88,12 @@ TEST(Traversal, FindsWhatBruteForceFindsInATriangleSoup) {
 
 TEST(Traversal, FindsWhatBruteForceFindsAmongMirroredAndStretchedInstances) {
   expectBruteForceHits(instancedScene(4, 60, 3), randomRays(6000, 10, 4), 10);
+}
+
+TEST(Traversal, TheFastTestFindsTheSameAwayFromEdges) {
+  const gpu::SpecConstant fast[] = {{setting_id::kIntersection, static_cast<uint32_t>(Intersection::Fast)}};
+  const Scene scene = test::sceneOf({test::meshOf(test::triangleSoup(600, 0.3f, 6))});
+  expectBruteForceHits(scene, randomRays(8000, 1.5f, 7), 1, 0.2, fast);
 }
 
 TEST(Traversal, FindsTheOneTriangleOfATinyScene) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "isophote/settings.hpp"
+#include "render/setting_ids.hpp"
 #include "support/probe.hpp"
 #include "test_glsl_kernels.hpp"
 
@@ -16,8 +18,8 @@ namespace {
 using gpu::TrigCase;
 using gpu::TrigResult;
 
-std::vector<TrigResult> run(const std::vector<TrigCase>& cases) {
-  return test::runProbe<TrigCase, TrigResult>(test_glsl_kernels::kernelSource("trig_probe"), cases);
+std::vector<TrigResult> run(const std::vector<TrigCase>& cases, std::span<const gpu::SpecConstant> settings = {}) {
+  return test::runProbe<TrigCase, TrigResult>(test_glsl_kernels::kernelSource("trig_probe"), cases, 0, settings);
 }
 
 double ulp(double value) {
@@ -108,6 +110,26 @@ TEST(Trigonometry, Atan2PiStaysWithin1e6OfDoubleAtEveryScale) {
   RecordProperty("worstRelative", std::to_string(worst * 1e9) + "e-9");
   RecordProperty("builtInWorstRelative", std::to_string(worstBuiltIn * 1e9) + "e-9");
   EXPECT_LE(worst, 1e-6);
+}
+
+// The bounds are Vulkan's: 2^-11 absolute for sine and cosine, 4096 ulp for the angle.
+TEST(Trigonometry, TheDevicesOwnIsTakenWhereAskedFor) {
+  const gpu::SpecConstant device[] = {{setting_id::kTrigonometry, static_cast<uint32_t>(Trigonometry::Device)}};
+  std::mt19937 generator(59);
+  std::uniform_real_distribution<float> whole(-2, 2);
+  std::vector<TrigCase> cases = {{0, 0}};
+  for (int i = 0; i < 10'000; ++i) cases.push_back({whole(generator), whole(generator)});
+  const auto results = run(cases, device);
+  const auto own = run(cases);
+  size_t different = 0;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const double x = cases[i].x, y = cases[i].y;
+    ASSERT_NEAR(results[i].sinCosPi.x, std::sin(std::numbers::pi * x), 0x1p-11) << x;
+    ASSERT_NEAR(results[i].sinCosPi.y, std::cos(std::numbers::pi * x), 0x1p-11) << x;
+    ASSERT_NEAR(results[i].atan2Pi, std::atan2(y, x) / std::numbers::pi, 4096 * 0x1p-23) << y << " " << x;
+    different += results[i].sinCosPi != own[i].sinCosPi || results[i].atan2Pi != own[i].atan2Pi;
+  }
+  EXPECT_GT(different, 0u);
 }
 
 TEST(Trigonometry, Atan2PiIsExactOnTheAxes) {

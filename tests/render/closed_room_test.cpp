@@ -79,7 +79,8 @@ TEST(RenderClosedRoom, Test34AMirrorCorridorLeavesThePowerOfItsReflectance) {
     addPrimitive(scene, quad({0, (k - 1) * kLane, k * kDrift}, {0, kLane, 0}, {1, 0, 0}, light)); // faces -z
   const glm::dvec3 start(0.5, 0.5 * kHeight, 0);
   const Camera camera = orthographicLookAt(start, start + glm::dvec3(1, 0, kDrift), 0.5 * kLane, 0.5 * kHeight);
-  const EstimatorSettings settings{.filter = PixelFilter::Box, .maxDepth = 100, .russianRoulette = false};
+  const EstimatorSettings settings{
+      .filter = PixelFilter::Box, .maxDepth = 100, .russianRoulette = RussianRoulette::Off};
   const Image image = renderImage(scene, camera, 1, kLanes, 8, {.estimator = settings});
   const std::vector<float> values = plane(image, "G");
   for (uint32_t k = 1; k <= kLanes; ++k) {

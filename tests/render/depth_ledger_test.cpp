@@ -23,9 +23,11 @@ struct Limited {
 Image renderLimited(const Scene& scene, const Camera& camera, uint32_t samples, const Limited& limited) {
   const GpuScene gpuScene(gpuDevice(), scene);
   Film film(gpuDevice(), {.width = limited.side, .height = limited.side, .aovs = false, .depthLedger = limited.ledger});
-  PathTracer tracer(
-      gpuDevice(), gpuScene,
-      {.filter = PixelFilter::Box, .maxDepth = limited.depth, .russianRoulette = limited.roulette, .seed = 3});
+  PathTracer tracer(gpuDevice(), gpuScene,
+                    {.filter = PixelFilter::Box,
+                     .maxDepth = limited.depth,
+                     .russianRoulette = limited.roulette ? RussianRoulette::Root : RussianRoulette::Off,
+                     .seed = 3});
   tracer.render(camera, film, {0, samples});
   expectHealthy(tracer.statistics());
   return film.resolve();

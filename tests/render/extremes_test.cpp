@@ -82,7 +82,7 @@ TEST(RenderExtremes, Test53FiveHundredScatteringsLoseNothing) {
                                       .filter = PixelFilter::Box,
                                       .lightSampling = LightSampling::BsdfOnly,
                                       .maxDepth = 500,
-                                      .russianRoulette = false};
+                                      .russianRoulette = RussianRoulette::Off};
     const Image image =
         renderImage(boxFurnace(glm::vec3(1), glm::vec3(1)), boxFurnaceCamera(), 8, 8, 8, {.estimator = estimator});
     for (const float value : plane(image, "G")) EXPECT_NEAR(value, 501, 501e-5);

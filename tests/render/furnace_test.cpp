@@ -61,7 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
     furnaceCaseName);
 
 TEST(RenderFurnace, Test17DepthLimitCutsTheSeriesAtEightScatterings) {
-  const EstimatorSettings estimator{.filter = PixelFilter::Box, .maxDepth = 8, .russianRoulette = false, .seed = 17};
+  const EstimatorSettings estimator{
+      .filter = PixelFilter::Box, .maxDepth = 8, .russianRoulette = RussianRoulette::Off, .seed = 17};
   EXPECT_TRUE(pixelMeanIs(renderFurnace(0.5f, 1024, estimator), "R", 1.99609375, 0.01));
 }
 
@@ -71,7 +72,7 @@ TEST(RenderFurnace, Test17LosslessBoxGivesDepthPlusOneWithoutVariance) {
     const EstimatorSettings estimator{.filter = PixelFilter::Box,
                                       .lightSampling = LightSampling::BsdfOnly,
                                       .maxDepth = depth,
-                                      .russianRoulette = false,
+                                      .russianRoulette = RussianRoulette::Off,
                                       .seed = 17};
     const Image image = renderFurnace(1, 16, estimator);
     for (const char* channel : {"R", "G", "B"}) {
@@ -95,7 +96,7 @@ TEST(RenderFurnace, Test18RouletteKeepsTheSeriesOfADarkeningByOnePercentSlow) {
 }
 
 TEST(RenderFurnace, RouletteDoesNotChangeADepthLimitedSeries) {
-  for (const bool roulette : {false, true}) {
+  for (const RussianRoulette roulette : {RussianRoulette::Off, RussianRoulette::Root, RussianRoulette::Throughput}) {
     const EstimatorSettings estimator{
         .filter = PixelFilter::Box, .maxDepth = 6, .russianRoulette = roulette, .seed = 3};
     EXPECT_TRUE(pixelMeanIs(renderFurnace(0.7f, 1024, estimator), "R", (1 - std::pow(0.7, 7)) / 0.3, 0.012));

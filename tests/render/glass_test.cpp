@@ -60,7 +60,8 @@ TEST(RenderGlass, Test32SlabShiftsABeam) {
     addPrimitive(scene, quad({edge - 1, -1e-3, 1}, {1, 0, 0}, {0, 0, -2}, addMaterial(scene, emitter(glm::vec3(1)))));
     const Camera camera = orthographicLookAt({1, 2, 0}, {0, 1, 0}, 1e-6, 1e-6);
     const Image image = renderImage(
-        scene, camera, 4, 4, 64, {.estimator = {.filter = PixelFilter::Box, .maxDepth = 2, .russianRoulette = false}});
+        scene, camera, 4, 4, 64,
+        {.estimator = {.filter = PixelFilter::Box, .maxDepth = 2, .russianRoulette = RussianRoulette::Off}});
     double mean = 0;
     for (const float value : plane(image, "G")) mean += double(value) / 16;
     if (distance < 0) {

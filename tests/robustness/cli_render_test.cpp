@@ -73,9 +73,12 @@ TEST_F(CliRender, UnbiasedRefusesABiasedSetting) {
   EXPECT_EQ(refused.exitCode, 2) << refused.err;
   EXPECT_NE(refused.err.find("max-depth"), std::string::npos) << refused.err;
   expectOneErrorLine(refused);
-  const auto straight = render({"--spp", "1", "--unbiased", "--set", "shadow-transmission=straight"});
-  EXPECT_EQ(straight.exitCode, 2) << straight.err;
-  EXPECT_NE(straight.err.find("shadow-transmission"), std::string::npos) << straight.err;
+  for (const std::string biased : {"shadow-transmission=straight", "intersection=fast", "ray-offset=fixed",
+                                   "trigonometry=device", "texture-filter=nearest"}) {
+    const auto refusedToo = render({"--spp", "1", "--unbiased", "--set", biased});
+    EXPECT_EQ(refusedToo.exitCode, 2) << refusedToo.err;
+    EXPECT_NE(refusedToo.err.find(biased.substr(0, biased.find('='))), std::string::npos) << refusedToo.err;
+  }
   EXPECT_EQ(render({"--spp", "1", "--unbiased", "--quiet"}).exitCode, 0);
 }
 

@@ -27,6 +27,16 @@ enum class Masking : uint32_t { Correlated, Separable };
 /// Reflectance of dielectrics: exact for glass and Schlick's approximation for opaque ones, as glTF has it; or one of
 /// both throughout.
 enum class Fresnel : uint32_t { Gltf, Exact, Schlick };
+/// How likely a dim path goes on: as the root of its throughput, or as its throughput.
+enum class RussianRoulette : uint32_t { Off, Root, Throughput };
+/// Rays against triangles: without gaps at edges, or by Moeller and Trumbore's test, which has them (biased).
+enum class Intersection : uint32_t { Watertight, Fast };
+/// How far from a surface rays start: beyond what rounding did to the point, or 1e-4 scene units (biased).
+enum class RayOffset : uint32_t { Bound, Fixed };
+/// Sines, cosines and angles: own polynomials, or the device's functions, whose error differs by device (biased).
+enum class Trigonometry : uint32_t { Own, Device };
+/// Textures of materials: filtered as the asset says, or the nearest texel (biased).
+enum class TextureFilter : uint32_t { Asset, Nearest };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
 inline constexpr float kNoClamp = std::numeric_limits<float>::infinity();
@@ -43,10 +53,14 @@ struct EstimatorSettings {
   SphereLightSampling sphereLightSampling = SphereLightSampling::Cone;
   ShadowTransmission shadowTransmission = ShadowTransmission::Off;
   uint32_t maxDepth = kUnlimitedDepth; ///< scattering events on a path; 0: emission seen directly
-  bool russianRoulette = true;
+  RussianRoulette russianRoulette = RussianRoulette::Root;
   Ndf ndf = Ndf::Ggx;
   Masking masking = Masking::Correlated;
   Fresnel fresnel = Fresnel::Gltf;
+  Intersection intersection = Intersection::Watertight;
+  RayOffset rayOffset = RayOffset::Bound;
+  Trigonometry trigonometry = Trigonometry::Own;
+  TextureFilter textureFilter = TextureFilter::Asset;
   bool multipleScattering = true; ///< between the facets of rough surfaces; false loses their light
   /// Radiance of a sample's brightest channel; brighter samples are scaled down to it, which removes light.
   float clamp = kNoClamp;

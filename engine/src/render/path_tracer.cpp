@@ -274,7 +274,7 @@ void PathTracer::Impl::retire() {
 
 PathTracer::PathTracer(const Device& device, const GpuScene& scene, const EstimatorSettings& estimator,
                        const ExecutionSettings& execution) {
-  if (estimator.maxDepth == kUnlimitedDepth && !estimator.russianRoulette) {
+  if (estimator.maxDepth == kUnlimitedDepth && estimator.russianRoulette == RussianRoulette::Off) {
     throw UsageError("unlimited depth needs Russian roulette: without it a path in a closed lossless scene never ends");
   }
   if (!(estimator.clamp > 0)) throw UsageError("clamp: a sample's largest radiance must be positive");

@@ -48,7 +48,11 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   constants.push_back({setting_id::kMisHeuristic, static_cast<uint32_t>(settings.misHeuristic)});
   constants.push_back({setting_id::kSphereLightSampling, static_cast<uint32_t>(settings.sphereLightSampling)});
   constants.push_back({setting_id::kShadowTransmission, static_cast<uint32_t>(settings.shadowTransmission)});
-  constants.push_back({setting_id::kRussianRoulette, settings.russianRoulette ? 1u : 0u});
+  constants.push_back({setting_id::kRussianRoulette, static_cast<uint32_t>(settings.russianRoulette)});
+  constants.push_back({setting_id::kIntersection, static_cast<uint32_t>(settings.intersection)});
+  constants.push_back({setting_id::kRayOffset, static_cast<uint32_t>(settings.rayOffset)});
+  constants.push_back({setting_id::kTrigonometry, static_cast<uint32_t>(settings.trigonometry)});
+  constants.push_back({setting_id::kTextureFilter, static_cast<uint32_t>(settings.textureFilter)});
   constants.push_back({setting_id::kDepthLedger, needs.depthLedger ? 1u : 0u});
   constants.push_back({setting_id::kPixelList, needs.pixelList ? 1u : 0u});
   constants.push_back({setting_id::kClamp, settings.clamp < kNoClamp ? 1u : 0u});
