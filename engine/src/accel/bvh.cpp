@@ -12,8 +12,6 @@
 namespace isophote {
 namespace {
 
-using gpu::kMaxBvhDepth;
-
 constexpr uint32_t kMaxBins = 16;
 
 // Ranges below this are not worth a thread: at about 0.2 us per item and level the work is some 10 ms.
@@ -255,12 +253,6 @@ double expectedCost(const std::vector<BinaryNode>& nodes, const Box& bounds, con
 
 } // namespace
 
-double halfArea(const Box& box) {
-  if (box.lower.x > box.upper.x) return 0;
-  const glm::dvec3 extent = glm::dvec3(box.upper) - glm::dvec3(box.lower);
-  return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
-}
-
 Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options) {
   std::vector<Item> items(boxes.size());
   Range all{0, static_cast<uint32_t>(boxes.size()), {}};
@@ -272,10 +264,10 @@ Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options) {
   Bvh bvh;
   bvh.bounds = all.box;
   Builder builder(items, options);
-  if (const auto halves = builder.split(all, kMaxBvhDepth)) {
+  if (const auto halves = builder.split(all, options.maxDepth)) {
     const uint32_t cores = options.threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : options.threads;
     const uint32_t threads = cores == 1 ? 1 : cores * kThreadsPerCore;
-    bvh.maxDepth = builder.build(*halves, kMaxBvhDepth, threads, bvh.nodes);
+    bvh.maxDepth = builder.build(*halves, options.maxDepth, threads, bvh.nodes);
   } else {
     bvh.nodes.push_back(nodeOf({all.box, 0, all.count, 0}, {}));
     bvh.maxDepth = 1;

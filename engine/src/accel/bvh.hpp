@@ -25,7 +25,11 @@ struct Box {
 };
 
 /// Half the surface area, in double so that no finite box overflows; 0 for an empty box.
-[[nodiscard]] double halfArea(const Box& box);
+[[nodiscard]] inline double halfArea(const Box& box) {
+  if (box.lower.x > box.upper.x) return 0;
+  const glm::dvec3 extent = glm::dvec3(box.upper) - glm::dvec3(box.lower);
+  return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+}
 
 /// Both children's boxes in the parent. count 0: child is an inner node's index; else child is the first of `count`
 /// leaf items. An absent child has lower > upper.
@@ -45,7 +49,7 @@ struct BinaryNode {
 struct Bvh {
   std::vector<BinaryNode> nodes; ///< parents before children
   std::vector<uint32_t> order;   ///< item numbers in leaf order
-  uint32_t maxDepth = 0;         ///< inner nodes from root to the deepest leaf, <= gpu::kMaxBvhDepth
+  uint32_t maxDepth = 0;         ///< inner nodes from root to the deepest leaf, <= that of the options
   double sahCost = 0;            ///< expected node steps + item tests for a random ray that hits the root box
   Box bounds;
 };
@@ -54,6 +58,7 @@ struct BvhBuildOptions {
   uint32_t maxLeafItems = 3;
   float nodeCost = 1;
   float itemCost = 1;
+  uint32_t maxDepth = gpu::kMaxBvhDepth; ///< of inner nodes; maxLeafItems * 2^maxDepth boxes must be no fewer
   uint32_t threads = 0; ///< 0: all cores; the result does not depend on it
 };
 

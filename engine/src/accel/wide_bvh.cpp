@@ -6,6 +6,7 @@
 #include <cmath>
 #include <future>
 #include <limits>
+#include <memory>
 #include <span>
 #include <thread>
 #include <tuple>
@@ -38,17 +39,17 @@ struct Child {
 
 // How the items below a binary node are best made into at most 1 to 7 children of one wide node.
 struct Forest {
-  std::array<float, kBvhWidth> cost{};       // [i]: of at most i children; [0] is not used
-  std::array<uint8_t, kBvhWidth + 1> left{}; // [i]: children of i that the left half gets; 0: i - 1 are as good
-  uint32_t firstItem = 0;
-  uint32_t itemCount = 0;
-  bool leaf = false; // whether the single child is a leaf
+  std::array<float, kBvhWidth> cost;       // [i]: of at most i children; [0] is not used
+  std::array<uint8_t, kBvhWidth + 1> left; // [i]: children of i that the left half gets; 0: i - 1 are as good
+  bool leaf;                               // whether the single child is a leaf
+  uint32_t firstItem;
+  uint32_t itemCount;
 };
 
 class Widener {
 public:
   Widener(const Bvh& binary, const WideBvhOptions& options)
-      : binary_(binary), options_(options), forests_(binary.nodes.size()) {
+      : binary_(binary), options_(options), forests_(std::make_unique_for_overwrite<Forest[]>(binary.nodes.size())) {
     const double area = halfArea(binary.bounds);
     if (area > 0 && std::isfinite(area)) areaScale_ = std::ldexp(1, -std::ilogb(area));
   }
@@ -89,9 +90,14 @@ private:
   // Of the order of 1 for the whole tree: squares of large coordinates do not fit a float.
   [[nodiscard]] float scaledArea(const Box& box) const { return static_cast<float>(halfArea(box) * areaScale_); }
 
-  [[nodiscard]] float costOf(const Side& side, uint32_t children) const {
-    if (side.count == 0) return forests_[side.child].cost[children];
-    return scaledArea(side.box) * options_.itemCost * static_cast<float>(side.count);
+  // Costs of at most i children, as Forest::cost.
+  using Costs = std::array<float, kBvhWidth>;
+
+  [[nodiscard]] Costs costsOf(const Side& side) const {
+    if (side.count == 0) return forests_[side.child].cost;
+    Costs costs;
+    costs.fill(scaledArea(side.box) * options_.itemCost * static_cast<float>(side.count));
+    return costs;
   }
 
   // Of the binary nodes [first, last), which are a subtree: its root, what is below the left child, what is below the
@@ -118,32 +124,42 @@ private:
     const uint32_t rightItems = right.count != 0 ? right.count : forests_[right.child].itemCount;
     forest.firstItem = left.count != 0 ? left.child : forests_[left.child].firstItem;
     forest.itemCount = leftItems + rightItems;
-    std::array<float, kBvhWidth + 1> distributed{};
-    for (uint32_t i = 2; i <= kBvhWidth; ++i) {
-      for (uint32_t k = 1; k < i; ++k) {
-        const float cost = costOf(left, std::min(k, kBvhWidth - 1)) + costOf(right, std::min(i - k, kBvhWidth - 1));
-        if (k == 1 || cost < distributed[i]) { // both get some, even where boxes are so large that costs are no numbers
-          distributed[i] = cost;
-          forest.left[i] = static_cast<uint8_t>(k);
+    const Costs leftCosts = costsOf(left);
+    const Costs rightCosts = costsOf(right);
+    forest.left = {};
+    const auto distribute = [&](uint32_t children) {
+      float best = leftCosts[1] + rightCosts[children - 1];
+      forest.left[children] = 1;
+      for (uint32_t k = 2; k < children; ++k) {
+        const float cost = leftCosts[k] + rightCosts[children - k];
+        if (cost < best) {
+          best = cost;
+          forest.left[children] = static_cast<uint8_t>(k);
         }
       }
-    }
+      return best;
+    };
+    const float all = distribute(kBvhWidth);
     Box box = left.box;
     box.grow(right.box);
     const float area = scaledArea(box);
-    forest.cost[1] = distributed[kBvhWidth] + area * options_.nodeCost;
+    forest.cost[1] = all + area * options_.nodeCost;
+    forest.leaf = false;
     if (forest.itemCount <= options_.maxLeafItems) {
       const float asLeaf = area * options_.itemCost * static_cast<float>(forest.itemCount);
       forest.leaf = asLeaf <= forest.cost[1];
       forest.cost[1] = std::min(forest.cost[1], asLeaf);
     }
-    for (uint32_t i = 2; i < kBvhWidth; ++i) {
-      forest.cost[i] = distributed[i];
-      if (forest.cost[i - 1] <= distributed[i]) {
+    // More children than items are no use.
+    const uint32_t useful = std::min(forest.itemCount, kBvhWidth - 1);
+    for (uint32_t i = 2; i <= useful; ++i) {
+      forest.cost[i] = distribute(i);
+      if (forest.cost[i - 1] <= forest.cost[i]) {
         forest.cost[i] = forest.cost[i - 1];
         forest.left[i] = 0;
       }
     }
+    for (uint32_t i = useful + 1; i < kBvhWidth; ++i) forest.cost[i] = forest.cost[useful];
   }
 
   void addChildren(const Side& side, uint32_t most, std::array<Child, kBvhWidth>& children, uint32_t& count) const {
@@ -203,7 +219,7 @@ private:
     }
     wide.nodes.resize(firstChild + innerCount);
     const std::span<const Child* const> subtrees(inner.data(), innerCount);
-    const bool parallel = threads > 1 && forests_[node].itemCount >= 2 * kMinNodesPerThread;
+    const bool parallel = threads > 1 && innerCount > 0 && forests_[node].itemCount >= 2 * kMinNodesPerThread;
     const auto [depth, below] =
         parallel ? fillInParallel(wide, firstChild, subtrees, threads) : fillInTurn(wide, firstChild, subtrees);
     return {depth + 1, cost + below};
@@ -255,32 +271,35 @@ private:
   // A slot is a corner of the node: a child goes towards the corner that its center is nearest to, so that slots in the
   // order of a ray's octant are roughly in the order of distance. The best of the remaining pairs, one after another.
   static std::array<const Child*, kBvhWidth> assignSlots(std::span<const Child> children, const Box& box) {
-    std::array<std::array<float, kBvhWidth>, kBvhWidth> gain{}; // [child][slot]
-    const glm::vec3 center = 0.5f * box.lower + 0.5f * box.upper;
+    std::array<std::array<float, kBvhWidth>, kBvhWidth> gain; // [child][slot]
+    const auto center = [](const Box& b) { return 0.0625f * b.lower + 0.0625f * b.upper; }; // no sum overflows
     for (size_t c = 0; c < children.size(); ++c) {
-      const glm::vec3 offset = 0.5f * children[c].box.lower + 0.5f * children[c].box.upper - center;
+      const glm::vec3 offset = center(children[c].box) - center(box);
       for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
-        for (int axis = 0; axis < 3; ++axis) gain[c][slot] += (slot >> axis & 1u) != 0 ? offset[axis] : -offset[axis];
+        gain[c][slot] = ((slot & 1u) != 0 ? offset.x : -offset.x) + ((slot & 2u) != 0 ? offset.y : -offset.y) +
+                        ((slot & 4u) != 0 ? offset.z : -offset.z);
       }
     }
+    const auto bestSlot = [&](size_t child) {
+      const auto& gains = gain[child];
+      return static_cast<uint32_t>(std::max_element(gains.begin(), gains.end()) - gains.begin());
+    };
+    std::array<uint32_t, kBvhWidth> wanted{}; // by each child
+    for (size_t c = 0; c < children.size(); ++c) wanted[c] = bestSlot(c);
     std::array<const Child*, kBvhWidth> slots{};
     std::array<bool, kBvhWidth> placed{};
     for (size_t round = 0; round < children.size(); ++round) {
-      size_t bestChild = 0;
-      uint32_t bestSlot = 0;
-      float best = -kInfinity;
+      size_t next = kBvhWidth;
       for (size_t c = 0; c < children.size(); ++c) {
-        if (placed[c]) continue;
-        for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
-          if (slots[slot] == nullptr && gain[c][slot] > best) {
-            best = gain[c][slot];
-            bestChild = c;
-            bestSlot = slot;
-          }
-        }
+        if (!placed[c] && (next == kBvhWidth || gain[c][wanted[c]] > gain[next][wanted[next]])) next = c;
       }
-      placed[bestChild] = true;
-      slots[bestSlot] = &children[bestChild];
+      const uint32_t slot = wanted[next];
+      placed[next] = true;
+      slots[slot] = &children[next];
+      for (size_t c = 0; c < children.size(); ++c) {
+        gain[c][slot] = -kInfinity;
+        if (!placed[c] && wanted[c] == slot) wanted[c] = bestSlot(c);
+      }
     }
     return slots;
   }
@@ -293,6 +312,13 @@ private:
     return exponent;
   }
 
+  // Cells are numbered from 0 to kCells - 1; a child within its node has no negative ones.
+  static uint32_t roundedDown(double cells) { return static_cast<uint32_t>(std::min(cells, kCells - 1)); }
+  static uint32_t roundedUp(double cells) {
+    const uint32_t down = roundedDown(cells);
+    return down < kCells - 1 && down < cells ? down + 1 : down;
+  }
+
   static gpu::BvhNode encode(const std::array<const Child*, kBvhWidth>& slots, const Box& box) {
     gpu::BvhNode node{};
     if (box.lower.x > box.upper.x) return node;
@@ -300,16 +326,16 @@ private:
     for (int axis = 0; axis < 3; ++axis) {
       const double lower = box.lower[axis];
       const int exponent = frameExponent(static_cast<double>(box.upper[axis]) - lower);
-      const double cell = std::ldexp(1 / kCells, exponent);
+      const double cells = std::ldexp(kCells, -exponent); // per unit of length
       node.exponents |= static_cast<uint32_t>(exponent + kExponentBias) << 8 * axis;
       for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
         if (slots[slot] == nullptr) continue;
         const Box& child = slots[slot]->box;
-        const double from = std::floor((static_cast<double>(child.lower[axis]) - lower) / cell);
-        const double to = std::ceil((static_cast<double>(child.upper[axis]) - lower) / cell);
+        const double from = (static_cast<double>(child.lower[axis]) - lower) * cells;
+        const double to = (static_cast<double>(child.upper[axis]) - lower) * cells;
         const uint32_t shift = 8 * (slot % 4);
-        node.lower[2 * axis + slot / 4] |= static_cast<uint32_t>(std::clamp(from, 0.0, kCells - 1)) << shift;
-        node.upper[2 * axis + slot / 4] |= static_cast<uint32_t>(std::clamp(to, 0.0, kCells - 1)) << shift;
+        node.lower[2 * axis + slot / 4] |= roundedDown(from) << shift;
+        node.upper[2 * axis + slot / 4] |= roundedUp(to) << shift;
       }
     }
     for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
@@ -326,7 +352,7 @@ private:
 
   const Bvh& binary_;
   const WideBvhOptions& options_;
-  std::vector<Forest> forests_;
+  std::unique_ptr<Forest[]> forests_; // of the nodes; none of a root with one leaf or none
   double areaScale_ = 1; // a power of two: it changes no rounding
 };
 

@@ -1,0 +1,120 @@
+#include "accel/z_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "accel/parallel_for.hpp"
+
+namespace isophote {
+namespace {
+
+constexpr uint32_t kBitsPerAxis = 21;
+constexpr double kCells = 1u << kBitsPerAxis;
+
+// 63 bits in six digits.
+constexpr uint32_t kDigitBits = 11;
+constexpr uint32_t kDigits = 1u << kDigitBits;
+
+// Some 0.1 ms for each pass.
+constexpr uint32_t kMinItemsPerThread = 16384;
+
+struct Place {
+  uint64_t code;
+  uint32_t number;
+};
+
+// Puts two zeros before each of the lowest 21 bits.
+uint64_t spread(uint64_t bits) {
+  bits = (bits | bits << 32) & 0x1f00000000ffffull;
+  bits = (bits | bits << 16) & 0x1f0000ff0000ffull;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00full;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3ull;
+  return (bits | bits << 2) & 0x1249249249249249ull;
+}
+
+class Cells {
+public:
+  explicit Cells(const Box& all) : lower_(all.lower), size_(glm::dvec3(all.upper) - lower_) {}
+
+  // The bits of the three numbers of the cell that holds the center, in turn.
+  [[nodiscard]] uint64_t code(const Box& box) const {
+    const glm::dvec3 center = 0.5 * (glm::dvec3(box.lower) + glm::dvec3(box.upper));
+    uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(size_[axis] > 0)) continue;
+      const double cell = (center[axis] - lower_[axis]) / size_[axis] * kCells;
+      code |= spread(static_cast<uint64_t>(std::min(cell, kCells - 1))) << axis;
+    }
+    return code;
+  }
+
+private:
+  glm::dvec3 lower_, size_;
+};
+
+// Equal parts of the list for one thread each.
+struct Parts {
+  uint32_t items, count;
+
+  Parts(size_t all, uint32_t threads)
+      : items(static_cast<uint32_t>(all)), count(std::clamp(items / kMinItemsPerThread, 1u, threads)) {}
+  [[nodiscard]] uint32_t first(uint32_t part) const {
+    return static_cast<uint32_t>(static_cast<uint64_t>(items) * part / count);
+  }
+};
+
+uint32_t digit(const Place& place, uint32_t shift) {
+  return static_cast<uint32_t>(place.code >> shift) & (kDigits - 1);
+}
+
+// Orders by one digit what was ordered by those below it. Returns whether `to` has it: where all digits are the same,
+// it has not.
+bool sortByDigit(const Place* from, Place* to, const Parts& parts, uint32_t shift) {
+  std::vector<std::array<uint32_t, kDigits>> starts(parts.count); // first as counts
+  parallelFor(parts.count, parts.count, [&](uint32_t part) {
+    for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) ++starts[part][digit(from[i], shift)];
+  });
+  uint32_t start = 0;
+  for (uint32_t d = 0; d < kDigits; ++d) {
+    const uint32_t before = start;
+    for (std::array<uint32_t, kDigits>& counts : starts) start += std::exchange(counts[d], start);
+    if (start - before == parts.items) return false;
+  }
+  parallelFor(parts.count, parts.count, [&](uint32_t part) {
+    for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) {
+      to[starts[part][digit(from[i], shift)]++] = from[i];
+    }
+  });
+  return true;
+}
+
+} // namespace
+
+std::vector<uint32_t> zOrder(std::span<const Box> boxes, uint32_t threads) {
+  const Parts parts(boxes.size(), threadCount(threads));
+  std::vector<Box> bounds(parts.count);
+  parallelFor(parts.count, parts.count, [&](uint32_t part) {
+    Box all;
+    for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) all.grow(boxes[i]);
+    bounds[part] = all;
+  });
+  Box all;
+  for (const Box& box : bounds) all.grow(box);
+
+  const Cells cells(all);
+  auto places = std::make_unique_for_overwrite<Place[]>(parts.items);
+  auto sorted = std::make_unique_for_overwrite<Place[]>(parts.items);
+  parallelFor(parts.count, parts.count, [&](uint32_t part) {
+    for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) places[i] = {cells.code(boxes[i]), i};
+  });
+  for (uint32_t shift = 0; shift < 3 * kBitsPerAxis; shift += kDigitBits) {
+    if (sortByDigit(places.get(), sorted.get(), parts, shift)) std::swap(places, sorted);
+  }
+  std::vector<uint32_t> order(parts.items);
+  for (uint32_t i = 0; i < parts.items; ++i) order[i] = places[i].number;
+  return order;
+}
+
+} // namespace isophote
