@@ -39,45 +39,52 @@ constexpr uint32_t kRadius = RADIUS;
 constexpr uint32_t kBoxesPerCluster = PER;
 
 // Inner nodes on top of each other within a cluster; the others are for the levels above.
-constexpr uint32_t kMaxClusterDepth = 10;
+#ifndef CD
+#define CD 8
+#endif
+constexpr uint32_t kMaxClusterDepth = CD;
 constexpr uint32_t kMaxTopDepth = kMaxBvhDepth - kMaxClusterDepth;
 
 // A round that makes fewer than a sixteenth of the clusters' number into pairs is the last: what is left is so uneven
 // that rounds would grow as many as clusters.
 constexpr uint32_t kLeastShareOfPairs = 16;
 
-constexpr uint32_t kIsItem = 1u << 31;
-
-// An inner node of a cluster. Children are nodes of the same chunk, or items by their place in Z-order with kIsItem set.
-struct Node {
-  Box box;
-  uint32_t left, right;
-};
-
+// A part of the tree: a node or, where items is 1, an item by its place in Z-order.
 struct Cluster {
   Box box;
-  uint32_t root;  // as the children of a Node
+  uint32_t root;
   uint32_t items;
   uint32_t depth; // inner nodes down to the deepest leaf
 };
 
+BinaryNode nodeOf(const Cluster& left, const Cluster& right) {
+  const auto leafItems = [](const Cluster& cluster) { return cluster.items == 1 ? 1u : 0u; };
+  return {left.box.lower,  left.root,  left.box.upper,  leafItems(left),
+          right.box.lower, right.root, right.box.upper, leafItems(right)};
+}
+
 // The clusters of one chunk while they are made, with their boxes by coordinate, scaled so that areas fit floats.
 class Agglomeration {
 public:
-  // @param order  items of the chunk, the first of which has number `first` in Z-order
-  // @param nodes  room for as many nodes as items, less one
-  Agglomeration(std::span<const Box> boxes, std::span<const uint32_t> order, uint32_t first, float scale, Node* nodes)
-      : scale_(scale), nodes_(nodes), firstNode_(first), count_(static_cast<uint32_t>(order.size())) {
-    for (uint32_t i = 0; i < count_; ++i) set(i, {boxes[order[i]], (first + i) | kIsItem, 1, 0});
+  // @param order  items of the chunk, the first of which has place `first` in Z-order
+  Agglomeration(std::span<const Box> boxes, std::span<const uint32_t> order, uint32_t first, float scale)
+      : scale_(scale), count_(static_cast<uint32_t>(order.size())) {
+    for (uint32_t i = 0; i < count_; ++i) set(i, {boxes[order[i]], first + i, 1, 0});
   }
 
-  std::span<const Cluster> run() {
+  // Puts the nodes of each cluster in a row, parents first, before `end` of the tree's.
+  // @return clusters whose roots are such nodes
+  std::span<const Cluster> run(std::vector<BinaryNode>& nodes, uint32_t end) {
     const uint32_t enough = std::max(1u, count_ / kBoxesPerCluster);
     while (count_ > enough) {
       findNearest();
       const uint32_t before = count_;
       mergePairs();
       if ((before - count_) * kLeastShareOfPairs < before) break;
+    }
+    uint32_t next = end - nodeCount_;
+    for (uint32_t i = 0; i < count_; ++i) {
+      if (clusters_[i].items > 1) clusters_[i].root = copySubtree(clusters_[i].root, nodes, next);
     }
     return {clusters_.data(), count_};
   }
@@ -149,17 +156,26 @@ private:
   }
 
   Cluster merged(const Cluster& left, const Cluster& right) {
-    Cluster result{left.box, firstNode_ + nodeCount_, left.items + right.items, 1 + std::max(left.depth, right.depth)};
+    nodes_[nodeCount_] = nodeOf(left, right);
+    Cluster result{left.box, nodeCount_++, left.items + right.items, 1 + std::max(left.depth, right.depth)};
     result.box.grow(right.box);
-    nodes_[nodeCount_++] = {result.box, left.root, right.root};
     return result;
   }
 
+  // Returns where its root is.
+  uint32_t copySubtree(uint32_t root, std::vector<BinaryNode>& nodes, uint32_t& next) const {
+    const uint32_t self = next++;
+    BinaryNode node = nodes_[root];
+    if (node.count0 == 0) node.child0 = copySubtree(node.child0, nodes, next);
+    if (node.count1 == 0) node.child1 = copySubtree(node.child1, nodes, next);
+    nodes[self] = node;
+    return self;
+  }
+
   float scale_;
-  Node* nodes_;
-  uint32_t firstNode_;
-  uint32_t nodeCount_ = 0;
   uint32_t count_;
+  uint32_t nodeCount_ = 0;
+  std::array<BinaryNode, kChunk> nodes_; // children first
   std::array<Cluster, kChunk> clusters_;
   std::array<std::array<float, kChunk>, 3> lower_, upper_;
   std::array<int32_t, kChunk> nearest_, distance_;
@@ -174,141 +190,82 @@ float scaleOf(const Box& all) {
   return std::ldexp(1.0f, std::clamp(-std::ilogb(largest), -125, 125));
 }
 
-// Puts clusters where the leaves of the tree above them are.
-class Graft {
-public:
-  Graft(std::span<const Box> boxes, std::span<const uint32_t> order, const Node* nodes,
-        std::span<const Cluster> clusters, const Bvh& top)
-      : boxes_(boxes), order_(order), nodes_(nodes), clusters_(clusters), top_(top), places_(clusters.size()) {}
-
-  Bvh run(uint32_t threads) {
-    result_.bounds = top_.bounds;
-    result_.nodes.resize(order_.size() - 1);
-    result_.order.resize(order_.size());
-    placeTop(0, 1);
-    constexpr uint32_t kClustersPerTurn = 256;
-    const auto count = static_cast<uint32_t>(clusters_.size());
-    parallelFor((count + kClustersPerTurn - 1) / kClustersPerTurn, threads, [&](uint32_t turn) {
-      const uint32_t last = std::min(count, (turn + 1) * kClustersPerTurn);
-      for (uint32_t i = turn * kClustersPerTurn; i < last; ++i) {
-        Place place = places_[i];
-        if (clusters_[i].items == 1) {
-          result_.order[place.item] = order_[clusters_[i].root & ~kIsItem];
-        } else {
-          placeNode(clusters_[i].root, place);
-        }
-      }
-    });
-    return std::move(result_);
-  }
-
-private:
-  // Where the next node and the next item go.
-  struct Place {
-    uint32_t node, item;
-  };
-
-  // What a parent says of a child.
-  struct Child {
-    Box box;
-    uint32_t index, count;
-  };
-
-  static BinaryNode nodeOf(const Child& left, const Child& right) {
-    return {left.box.lower,  left.index,  left.box.upper,  left.count,
-            right.box.lower, right.index, right.box.upper, right.count};
-  }
-
-  void placeTop(uint32_t number, uint32_t depth) {
-    const BinaryNode& node = top_.nodes[number];
-    const uint32_t self = next_.node++;
-    const Child left = topChild({node.lower0, node.upper0}, node.child0, node.count0, depth);
-    const Child right = topChild({node.lower1, node.upper1}, node.child1, node.count1, depth);
-    result_.nodes[self] = nodeOf(left, right);
-  }
-
-  Child topChild(const Box& box, uint32_t child, uint32_t count, uint32_t depth) {
-    const Place place = next_;
-    if (count == 0) {
-      placeTop(child, depth + 1);
-      return {box, place.node, 0};
-    }
-    const uint32_t number = top_.order[child];
-    const Cluster& cluster = clusters_[number];
-    places_[number] = place;
-    next_.node += cluster.items - 1;
-    next_.item += cluster.items;
-    result_.maxDepth = std::max(result_.maxDepth, depth + cluster.depth);
-    return cluster.items == 1 ? Child{box, place.item, 1} : Child{box, place.node, 0};
-  }
-
-  void placeNode(uint32_t number, Place& next) {
-    const Node& node = nodes_[number];
-    const uint32_t self = next.node++;
-    const Child left = child(node.left, next);
-    const Child right = child(node.right, next);
-    result_.nodes[self] = nodeOf(left, right);
-  }
-
-  Child child(uint32_t number, Place& next) {
-    if ((number & kIsItem) == 0) {
-      const uint32_t index = next.node;
-      placeNode(number, next);
-      return {nodes_[number].box, index, 0};
-    }
-    const uint32_t item = order_[number & ~kIsItem];
-    result_.order[next.item] = item;
-    return {boxes_[item], next.item++, 1};
-  }
-
-  std::span<const Box> boxes_;
-  std::span<const uint32_t> order_;
-  const Node* nodes_;
-  std::span<const Cluster> clusters_;
-  const Bvh& top_;
-  std::vector<Place> places_; // of clusters
-  Place next_{0, 0};
-  Bvh result_;
+// What the chunks left.
+struct Clusters {
+  std::vector<Cluster> clusters;
+  std::vector<uint32_t> freeNodes; // ascending, one fewer than clusters
 };
+
+// A chunk's nodes stand at the end of as many as it has items. What it needs fewer, one for each of its clusters, is
+// free: but for one the nodes that the levels above need.
+Clusters makeClusters(std::span<const Box> boxes, Bvh& bvh, uint32_t threads) {
+  const auto count = static_cast<uint32_t>(boxes.size());
+  const float scale = scaleOf(bvh.bounds);
+  std::vector<std::vector<Cluster>> found((count + kChunk - 1) / kChunk);
+  parallelFor(static_cast<uint32_t>(found.size()), threads, [&](uint32_t chunk) {
+    const uint32_t first = chunk * kChunk;
+    const uint32_t items = std::min(kChunk, count - first);
+    Agglomeration agglomeration(boxes, std::span(bvh.order).subspan(first, items), first, scale);
+    const std::span<const Cluster> clusters = agglomeration.run(bvh.nodes, first + items - 1);
+    found[chunk].assign(clusters.begin(), clusters.end());
+  });
+  Clusters all;
+  for (uint32_t chunk = 0; chunk < found.size(); ++chunk) {
+    all.clusters.insert(all.clusters.end(), found[chunk].begin(), found[chunk].end());
+    for (uint32_t i = 0; i < found[chunk].size(); ++i) {
+      if (chunk != 0 || i != 0) all.freeNodes.push_back(chunk * kChunk + i - 1);
+    }
+  }
+  return all;
+}
+
+// Puts the tree over the clusters into the free nodes.
+void addTop(const Bvh& top, const Clusters& all, Bvh& bvh) {
+  std::vector<uint32_t> depths(top.nodes.size(), 1);
+  for (uint32_t i = 0; i < top.nodes.size(); ++i) { // parents first
+    BinaryNode node = top.nodes[i];
+    const auto setChild = [&](uint32_t& child, uint32_t& count) {
+      if (count == 0) {
+        depths[child] = depths[i] + 1;
+        child = all.freeNodes[child];
+        return;
+      }
+      const Cluster& cluster = all.clusters[top.order[child]];
+      child = cluster.root;
+      count = cluster.items == 1 ? 1 : 0;
+      bvh.maxDepth = std::max(bvh.maxDepth, depths[i] + cluster.depth);
+    };
+    setChild(node.child0, node.count0);
+    setChild(node.child1, node.count1);
+    bvh.nodes[all.freeNodes[i]] = node;
+  }
+}
 
 } // namespace
 
 Bvh buildFastBvh(std::span<const Box> boxes, uint32_t threads) {
   BvhBuildOptions options{.maxLeafItems = 1, .threads = threads};
-  const auto count = static_cast<uint32_t>(boxes.size());
-  if (count <= kChunk) return buildBvh(boxes, options);
+  if (boxes.size() <= kChunk) return buildBvh(boxes, options);
   TM t;
   threads = threadCount(threads);
-  Box all;
-  for (const Box& box : boxes) all.grow(box);
-  const float scale = scaleOf(all);
+  Bvh bvh;
+  for (const Box& box : boxes) bvh.bounds.grow(box);
   t("bounds");
-  const std::vector<uint32_t> order = zOrder(boxes, threads);
+  bvh.order = zOrder(boxes, threads);
   t("zorder");
-
-  const auto nodes = std::make_unique_for_overwrite<Node[]>(count);
-  const uint32_t chunks = (count + kChunk - 1) / kChunk;
-  std::vector<std::vector<Cluster>> found(chunks);
-  parallelFor(chunks, threads, [&](uint32_t chunk) {
-    const uint32_t first = chunk * kChunk;
-    Agglomeration agglomeration(boxes, std::span(order).subspan(first, std::min(kChunk, count - first)), first, scale,
-                                nodes.get() + first);
-    const std::span<const Cluster> clusters = agglomeration.run();
-    found[chunk].assign(clusters.begin(), clusters.end());
-  });
+  bvh.nodes.resize(boxes.size() - 1);
+  t("alloc");
+  const Clusters all = makeClusters(boxes, bvh, threads);
   t("ploc");
-  std::vector<Cluster> clusters;
+  if (all.clusters.size() >> kMaxTopDepth != 0) return buildBvh(boxes, options);
   std::vector<Box> tops;
-  for (const std::vector<Cluster>& some : found) clusters.insert(clusters.end(), some.begin(), some.end());
-  if (clusters.size() >> kMaxTopDepth != 0) return buildBvh(boxes, options);
-  for (const Cluster& cluster : clusters) tops.push_back(cluster.box);
+  for (const Cluster& cluster : all.clusters) tops.push_back(cluster.box);
   options.maxDepth = kMaxTopDepth;
-  t("gather");
-  const Bvh top = buildBvh(tops, options);
+  const Bvh top= buildBvh(tops, options);
   t("top");
-  Bvh r= Graft(boxes, order, nodes.get(), clusters, top).run(threads);
-  t("graft");
-  return r;
+  addTop(top, all, bvh);
+  t("addtop");
+  return bvh;
 }
 
 } // namespace isophote

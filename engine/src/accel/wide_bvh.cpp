@@ -1,5 +1,7 @@
 #include "accel/wide_bvh.hpp"
 
+#include "accel/parallel_for.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -28,12 +30,13 @@ constexpr double kCells = gpu::kBvhFrameCells;
 constexpr uint32_t kMinNodesPerThread = 32768;
 // Subtrees are uneven, the system's scheduler levels them out.
 constexpr uint32_t kThreadsPerCore = 4;
+constexpr uint32_t kSubtreesPerThread = 16;
 
 // A child of a wide node: a subtree of the binary tree with its items.
 struct Child {
   Box box;
-  uint32_t node = 0; // binary node of an inner child
-  uint32_t firstItem = 0;
+  uint32_t index = 0; // of the binary node or, of a leaf of the binary tree, of the first item
+  bool isNode = false;
   uint32_t itemCount = 0; // of a leaf; 0: inner
 };
 
@@ -42,7 +45,6 @@ struct Forest {
   std::array<float, kBvhWidth> cost;       // [i]: of at most i children; [0] is not used
   std::array<uint8_t, kBvhWidth + 1> left; // [i]: children of i that the left half gets; 0: i - 1 are as good
   bool leaf;                               // whether the single child is a leaf
-  uint32_t firstItem;
   uint32_t itemCount;
 };
 
@@ -57,7 +59,7 @@ public:
   WideBvh widen() {
     const uint32_t cores = options_.threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : options_.threads;
     const uint32_t threads = cores == 1 ? 1 : cores * kThreadsPerCore;
-    findForests(0, static_cast<uint32_t>(binary_.nodes.size()), threads);
+    findForests(binary_.nodes.size() >= 2 * kMinNodesPerThread ? threads : 1);
     Subtree all = subtree(0, binary_.bounds, threads);
     const double area = halfArea(binary_.bounds);
     return {.nodes = std::move(all.nodes),
@@ -100,29 +102,41 @@ private:
     return costs;
   }
 
-  // Of the binary nodes [first, last), which are a subtree: its root, what is below the left child, what is below the
-  // right one. Children come after their parents, so backwards is upwards.
-  void findForests(uint32_t first, uint32_t last, uint32_t threads) {
-    if (threads > 1 && last - first >= 2 * kMinNodesPerThread) {
-      const BinaryNode& root = binary_.nodes[first];
-      const uint32_t right = root.count1 == 0 ? root.child1 : last;
-      auto pending = std::async(std::launch::async, [=, this] { findForests(first + 1, right, threads / 2); });
-      findForests(right, last, threads - threads / 2);
-      pending.get();
-      last = first + 1;
+  // Children before parents: below nodes of a level with enough of them on several threads, then those above.
+  void findForests(uint32_t threads) {
+    std::vector<uint32_t> above, level{0};
+    while (!level.empty() && level.size() < kSubtreesPerThread * threads) {
+      above.insert(above.end(), level.begin(), level.end());
+      std::vector<uint32_t> next;
+      for (const uint32_t node : level) {
+        const BinaryNode& parent = binary_.nodes[node];
+        for (const bool right : {false, true}) {
+          const Side child = side(parent, right);
+          if (child.count == 0 && !child.absent()) next.push_back(child.child);
+        }
+      }
+      level = std::move(next);
     }
-    for (uint32_t i = last; i-- > first;) {
-      const Side left = side(binary_.nodes[i], false);
-      const Side right = side(binary_.nodes[i], true);
-      if (left.absent() || right.absent()) continue; // a root with one leaf or none
-      findForest(left, right, forests_[i]);
-    }
+    parallelFor(static_cast<uint32_t>(level.size()), threads, [&](uint32_t i) { findForestsBelow(level[i]); });
+    std::for_each(above.rbegin(), above.rend(), [&](uint32_t node) { findForest(node); });
+  }
+
+  void findForestsBelow(uint32_t node) {
+    const BinaryNode& parent = binary_.nodes[node];
+    if (parent.count0 == 0) findForestsBelow(parent.child0);
+    if (parent.count1 == 0) findForestsBelow(parent.child1);
+    findForest(node);
+  }
+
+  void findForest(uint32_t node) {
+    const Side left = side(binary_.nodes[node], false);
+    const Side right = side(binary_.nodes[node], true);
+    if (!left.absent() && !right.absent()) findForest(left, right, forests_[node]); // else a root with one leaf or none
   }
 
   void findForest(const Side& left, const Side& right, Forest& forest) const {
     const uint32_t leftItems = left.count != 0 ? left.count : forests_[left.child].itemCount;
     const uint32_t rightItems = right.count != 0 ? right.count : forests_[right.child].itemCount;
-    forest.firstItem = left.count != 0 ? left.child : forests_[left.child].firstItem;
     forest.itemCount = leftItems + rightItems;
     const Costs leftCosts = costsOf(left);
     const Costs rightCosts = costsOf(right);
@@ -164,13 +178,13 @@ private:
 
   void addChildren(const Side& side, uint32_t most, std::array<Child, kBvhWidth>& children, uint32_t& count) const {
     if (side.count != 0) {
-      children[count++] = {side.box, 0, side.child, side.count};
+      children[count++] = {side.box, side.child, false, side.count};
       return;
     }
     const Forest& forest = forests_[side.child];
     while (most > 1 && forest.left[most] == 0) --most;
     if (most == 1) {
-      children[count++] = {side.box, side.child, forest.firstItem, forest.leaf ? forest.itemCount : 0};
+      children[count++] = {side.box, side.child, true, forest.leaf ? forest.itemCount : 0};
       return;
     }
     distribute(side.child, most, children, count);
@@ -180,6 +194,15 @@ private:
     const uint32_t left = forests_[node].left[most];
     addChildren(side(binary_.nodes[node], false), std::min(left, kBvhWidth - 1), children, count);
     addChildren(side(binary_.nodes[node], true), std::min(most - left, kBvhWidth - 1), children, count);
+  }
+
+  // The items of a leaf of the binary tree or, where count is 0, of all leaves below a node.
+  void addItems(uint32_t child, uint32_t count, std::vector<uint32_t>& order) const {
+    for (uint32_t i = 0; i < count; ++i) order.push_back(binary_.order[child + i]);
+    if (count != 0) return;
+    const BinaryNode& node = binary_.nodes[child];
+    addItems(node.child0, node.count0, order);
+    addItems(node.child1, node.count1, order);
   }
 
   // What is below a binary node.
@@ -197,7 +220,7 @@ private:
     uint32_t count = 0;
     if (side(binary_.nodes[node], true).absent()) {
       const Side only = side(binary_.nodes[node], false);
-      if (only.count != 0) children[count++] = {only.box, 0, only.child, only.count};
+      if (only.count != 0) children[count++] = {only.box, only.child, false, only.count};
     } else {
       distribute(node, kBvhWidth, children, count);
     }
@@ -215,7 +238,7 @@ private:
       cost += halfArea(child->box) *
               (child->itemCount != 0 ? options_.itemCost * static_cast<float>(child->itemCount) : options_.nodeCost);
       if (child->itemCount == 0) inner[innerCount++] = child;
-      for (uint32_t i = 0; i < child->itemCount; ++i) wide.order.push_back(binary_.order[child->firstItem + i]);
+      if (child->itemCount != 0) addItems(child->index, child->isNode ? 0 : child->itemCount, wide.order);
     }
     wide.nodes.resize(firstChild + innerCount);
     const std::span<const Child* const> subtrees(inner.data(), innerCount);
@@ -229,7 +252,7 @@ private:
     uint32_t deepest = 0;
     double sum = 0;
     for (const Child* child : children) {
-      const auto [depth, cost] = fill(wide, first++, child->node, child->box, 1);
+      const auto [depth, cost] = fill(wide, first++, child->index, child->box, 1);
       deepest = std::max(deepest, depth);
       sum += cost;
     }
@@ -242,7 +265,7 @@ private:
     std::vector<std::future<Subtree>> pending;
     const uint32_t share = std::max(1u, threads / static_cast<uint32_t>(std::max<size_t>(children.size(), 1)));
     for (const Child* child : children) {
-      pending.push_back(std::async(std::launch::async, [=, this] { return subtree(child->node, child->box, share); }));
+      pending.push_back(std::async(std::launch::async, [=, this] { return subtree(child->index, child->box, share); }));
     }
     uint32_t deepest = 0;
     double sum = 0;

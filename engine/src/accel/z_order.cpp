@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <memory>
 #include <utility>
 
@@ -13,17 +14,11 @@ namespace {
 constexpr uint32_t kBitsPerAxis = 21;
 constexpr double kCells = 1u << kBitsPerAxis;
 
-// 63 bits in six digits.
 constexpr uint32_t kDigitBits = 11;
 constexpr uint32_t kDigits = 1u << kDigitBits;
 
 // Some 0.1 ms for each pass.
 constexpr uint32_t kMinItemsPerThread = 16384;
-
-struct Place {
-  uint64_t code;
-  uint32_t number;
-};
 
 // Puts two zeros before each of the lowest 21 bits.
 uint64_t spread(uint64_t bits) {
@@ -65,13 +60,29 @@ struct Parts {
   }
 };
 
-uint32_t digit(const Place& place, uint32_t shift) {
-  return static_cast<uint32_t>(place.code >> shift) & (kDigits - 1);
-}
+// Words of a code's first bits above the number of its box: what fits is sorted at once.
+class Words {
+public:
+  explicit Words(uint32_t boxes) : numberBits_(static_cast<uint32_t>(std::bit_width(boxes))) {}
+
+  [[nodiscard]] uint32_t numberBits() const { return numberBits_; }
+  [[nodiscard]] uint64_t word(uint64_t code, uint32_t number) const {
+    return code << 1 >> numberBits_ << numberBits_ | number; // of a code's 64 bits the first is always 0
+  }
+  [[nodiscard]] uint32_t number(uint64_t word) const {
+    return static_cast<uint32_t>(word & ((uint64_t{1} << numberBits_) - 1));
+  }
+  [[nodiscard]] bool sameCode(uint64_t a, uint64_t b) const { return (a ^ b) >> numberBits_ == 0; }
+
+private:
+  uint32_t numberBits_;
+};
+
+uint32_t digit(uint64_t word, uint32_t shift) { return static_cast<uint32_t>(word >> shift) & (kDigits - 1); }
 
 // Orders by one digit what was ordered by those below it. Returns whether `to` has it: where all digits are the same,
 // it has not.
-bool sortByDigit(const Place* from, Place* to, const Parts& parts, uint32_t shift) {
+bool sortByDigit(const uint64_t* from, uint64_t* to, const Parts& parts, uint32_t shift) {
   std::vector<std::array<uint32_t, kDigits>> starts(parts.count); // first as counts
   parallelFor(parts.count, parts.count, [&](uint32_t part) {
     for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) ++starts[part][digit(from[i], shift)];
@@ -90,12 +101,22 @@ bool sortByDigit(const Place* from, Place* to, const Parts& parts, uint32_t shif
   return true;
 }
 
+// Orders boxes whose words differ in their numbers alone by all of their codes.
+void sortByCode(std::span<uint32_t> order, std::span<const Box> boxes, const Cells& cells) {
+  std::vector<std::pair<uint64_t, uint32_t>> places; // code, number
+  places.reserve(order.size());
+  for (const uint32_t number : order) places.emplace_back(cells.code(boxes[number]), number);
+  std::sort(places.begin(), places.end());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = places[i].second;
+}
+
 } // namespace
 
 std::vector<uint32_t> zOrder(std::span<const Box> boxes, uint32_t threads) {
   const Parts parts(boxes.size(), threadCount(threads));
+  const auto forParts = [&](const auto& work) { parallelFor(parts.count, parts.count, work); };
   std::vector<Box> bounds(parts.count);
-  parallelFor(parts.count, parts.count, [&](uint32_t part) {
+  forParts([&](uint32_t part) {
     Box all;
     for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) all.grow(boxes[i]);
     bounds[part] = all;
@@ -104,16 +125,26 @@ std::vector<uint32_t> zOrder(std::span<const Box> boxes, uint32_t threads) {
   for (const Box& box : bounds) all.grow(box);
 
   const Cells cells(all);
-  auto places = std::make_unique_for_overwrite<Place[]>(parts.items);
-  auto sorted = std::make_unique_for_overwrite<Place[]>(parts.items);
-  parallelFor(parts.count, parts.count, [&](uint32_t part) {
-    for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) places[i] = {cells.code(boxes[i]), i};
+  const Words words(parts.items);
+  auto sorted = std::make_unique_for_overwrite<uint64_t[]>(parts.items);
+  auto spare = std::make_unique_for_overwrite<uint64_t[]>(parts.items);
+  forParts([&](uint32_t part) {
+    for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) {
+      sorted[i] = words.word(cells.code(boxes[i]), i);
+    }
   });
-  for (uint32_t shift = 0; shift < 3 * kBitsPerAxis; shift += kDigitBits) {
-    if (sortByDigit(places.get(), sorted.get(), parts, shift)) std::swap(places, sorted);
+  for (uint32_t shift = words.numberBits(); shift < 64; shift += kDigitBits) {
+    if (sortByDigit(sorted.get(), spare.get(), parts, shift)) std::swap(sorted, spare);
   }
+
   std::vector<uint32_t> order(parts.items);
-  for (uint32_t i = 0; i < parts.items; ++i) order[i] = places[i].number;
+  forParts([&](uint32_t part) {
+    for (uint32_t i = parts.first(part); i < parts.first(part + 1); ++i) order[i] = words.number(sorted[i]);
+  });
+  for (uint32_t first = 0, last; first < parts.items; first = last) {
+    for (last = first + 1; last < parts.items && words.sameCode(sorted[first], sorted[last]); ++last) continue;
+    if (last - first > 1) sortByCode(std::span(order).subspan(first, last - first), boxes, cells);
+  }
   return order;
 }
 
