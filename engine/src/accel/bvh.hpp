@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "accel/unset_vector.hpp"
 #include "shared/geometry_types.h"
 
 namespace isophote {
@@ -44,13 +45,12 @@ struct BinaryNode {
   uint32_t count1;
 };
 
-/// Nodes with indices relative to this BVH (root 0, leaf items index `order`). Never empty: no boxes give one node with
-/// two absent children; one leaf gives a node whose second child is absent.
+/// Nodes with indices relative to this BVH (root 0, leaf items index `order`), otherwise in any order. Never empty: no
+/// boxes give one node with two absent children; one leaf gives a node whose second child is absent.
 struct Bvh {
-  std::vector<BinaryNode> nodes; ///< parents before children
-  std::vector<uint32_t> order;   ///< item numbers in leaf order
+  UnsetVector<BinaryNode> nodes; ///< the root first
+  std::vector<uint32_t> order;   ///< item numbers; those of a leaf follow one another
   uint32_t maxDepth = 0;         ///< inner nodes from root to the deepest leaf, <= that of the options
-  double sahCost = 0;            ///< expected node steps + item tests for a random ray that hits the root box
   Box bounds;
 };
 
@@ -59,11 +59,11 @@ struct BvhBuildOptions {
   float nodeCost = 1;
   float itemCost = 1;
   uint32_t maxDepth = gpu::kMaxBvhDepth; ///< of inner nodes; maxLeafItems * 2^maxDepth boxes must be no fewer
-  uint32_t threads = 0; ///< 0: all cores; the result does not depend on it
+  uint32_t threads = 0;                  ///< 0: all cores; the result does not depend on it
 };
 
 /// Builds by binned surface-area heuristic (Wald 2007), falling back to object medians near the depth limit.
-/// Boxes must be finite. Equal input gives equal output on any number of threads.
+/// Boxes must be finite. Parents come before their children. Equal input gives equal output on any number of threads.
 [[nodiscard]] Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options = {});
 
 } // namespace isophote

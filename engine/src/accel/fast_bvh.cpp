@@ -4,11 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <memory>
-#include <numeric>
+#include <limits>
 #include <utility>
-#include <chrono>
-#include <sys/resource.h>
 
 #include "accel/parallel_for.hpp"
 #include "accel/z_order.hpp"
@@ -17,36 +14,23 @@ namespace isophote {
 namespace {
 
 using gpu::kMaxBvhDepth;
-struct TM{double c,w;static double cpu(){rusage u;getrusage(RUSAGE_SELF,&u);return u.ru_utime.tv_sec+u.ru_stime.tv_sec+1e-6*(u.ru_utime.tv_usec+u.ru_stime.tv_usec);}
-static double wall(){return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();}
-TM():c(cpu()),w(wall()){}
-void operator()(const char*n){if(getenv("TM"))printf("   %s wall %.1f cpu %.1f ms\n",n,1e3*(wall()-w),1e3*(cpu()-c));c=cpu();w=wall();}};
 
-
-// Boxes that one thread makes into clusters at a time: their arrays fit the first cache.
+// Boxes that one thread makes into clusters at a time: what it needs fits the second cache.
 constexpr uint32_t kChunk = 1024;
 
-// Neighbors on each side among which a cluster finds its nearest one; at most 15, so that nearestOf can tell them apart.
-#ifndef RADIUS
-#define RADIUS 8
-#endif
-#ifndef PER
-#define PER 16
-#endif
-constexpr uint32_t kRadius = RADIUS;
+// Neighbors on each side among which a cluster finds its nearest one. Eight of them make no better tree. At most 15,
+// so that nearestOf can tell them apart.
+constexpr uint32_t kRadius = 3;
 
-// Clusters are made until there are so many times fewer than boxes.
-constexpr uint32_t kBoxesPerCluster = PER;
+// Clusters are made until there are so many times fewer than boxes. Sixteen make no better tree.
+constexpr uint32_t kBoxesPerCluster = 32;
 
 // Inner nodes on top of each other within a cluster; the others are for the levels above.
-#ifndef CD
-#define CD 8
-#endif
-constexpr uint32_t kMaxClusterDepth = CD;
+constexpr uint32_t kMaxClusterDepth = 8;
 constexpr uint32_t kMaxTopDepth = kMaxBvhDepth - kMaxClusterDepth;
 
-// A round that makes fewer than a sixteenth of the clusters' number into pairs is the last: what is left is so uneven
-// that rounds would grow as many as clusters.
+// The round that merges less than a sixteenth of the clusters is the last: of boxes that grow along the curve each is
+// nearest to the one before, and rounds would be as many as clusters.
 constexpr uint32_t kLeastShareOfPairs = 16;
 
 // A part of the tree: a node or, where items is 1, an item by its place in Z-order.
@@ -72,9 +56,9 @@ public:
     for (uint32_t i = 0; i < count_; ++i) set(i, {boxes[order[i]], first + i, 1, 0});
   }
 
-  // Puts the nodes of each cluster in a row, parents first, before `end` of the tree's.
+  // Puts the nodes of each cluster in a row, parents first, and all of them before `end` of the tree's.
   // @return clusters whose roots are such nodes
-  std::span<const Cluster> run(std::vector<BinaryNode>& nodes, uint32_t end) {
+  std::span<const Cluster> run(UnsetVector<BinaryNode>& nodes, uint32_t end) {
     const uint32_t enough = std::max(1u, count_ / kBoxesPerCluster);
     while (count_ > enough) {
       findNearest();
@@ -163,7 +147,7 @@ private:
   }
 
   // Returns where its root is.
-  uint32_t copySubtree(uint32_t root, std::vector<BinaryNode>& nodes, uint32_t& next) const {
+  uint32_t copySubtree(uint32_t root, UnsetVector<BinaryNode>& nodes, uint32_t& next) const {
     const uint32_t self = next++;
     BinaryNode node = nodes_[root];
     if (node.count0 == 0) node.child0 = copySubtree(node.child0, nodes, next);
@@ -190,14 +174,14 @@ float scaleOf(const Box& all) {
   return std::ldexp(1.0f, std::clamp(-std::ilogb(largest), -125, 125));
 }
 
-// What the chunks left.
+// What chunks leave for the levels above.
 struct Clusters {
   std::vector<Cluster> clusters;
-  std::vector<uint32_t> freeNodes; // ascending, one fewer than clusters
+  std::vector<uint32_t> freeNodes; // ascending from 0, one fewer than clusters
 };
 
-// A chunk's nodes stand at the end of as many as it has items. What it needs fewer, one for each of its clusters, is
-// free: but for one the nodes that the levels above need.
+// Makes each chunk's nodes the last of as many as it has items. It needs as many fewer as it has clusters; those are
+// free for the levels above, which need all but one. The root is the first, as a full chunk leaves several clusters.
 Clusters makeClusters(std::span<const Box> boxes, Bvh& bvh, uint32_t threads) {
   const auto count = static_cast<uint32_t>(boxes.size());
   const float scale = scaleOf(bvh.bounds);
@@ -246,25 +230,18 @@ void addTop(const Bvh& top, const Clusters& all, Bvh& bvh) {
 Bvh buildFastBvh(std::span<const Box> boxes, uint32_t threads) {
   BvhBuildOptions options{.maxLeafItems = 1, .threads = threads};
   if (boxes.size() <= kChunk) return buildBvh(boxes, options);
-  TM t;
   threads = threadCount(threads);
   Bvh bvh;
   for (const Box& box : boxes) bvh.bounds.grow(box);
-  t("bounds");
   bvh.order = zOrder(boxes, threads);
-  t("zorder");
   bvh.nodes.resize(boxes.size() - 1);
-  t("alloc");
   const Clusters all = makeClusters(boxes, bvh, threads);
-  t("ploc");
   if (all.clusters.size() >> kMaxTopDepth != 0) return buildBvh(boxes, options);
   std::vector<Box> tops;
   for (const Cluster& cluster : all.clusters) tops.push_back(cluster.box);
   options.maxDepth = kMaxTopDepth;
-  const Bvh top= buildBvh(tops, options);
-  t("top");
+  const Bvh top = buildBvh(tops, options);
   addTop(top, all, bvh);
-  t("addtop");
   return bvh;
 }
 

@@ -8,8 +8,8 @@
 
 namespace isophote {
 
-/// Builds by agglomeration of neighbors along a Z-order curve into clusters of some sixteen boxes, and by buildBvh above
-/// the clusters. Leaves hold one item each. Boxes must be finite. Equal input gives equal output on any number of
+/// Builds by agglomeration of neighbors along a Z-order curve into clusters of some sixteen boxes, and by buildBvh
+/// above the clusters. Leaves hold one item each. Boxes must be finite. Equal input gives equal output on any number of
 /// threads.
 ///
 /// Source: Meister and Bittner 2018, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction";

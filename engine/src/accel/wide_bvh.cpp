@@ -1,7 +1,5 @@
 #include "accel/wide_bvh.hpp"
 
-#include "accel/parallel_for.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -10,9 +8,10 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <thread>
 #include <tuple>
 #include <utility>
+
+#include "accel/parallel_for.hpp"
 
 namespace isophote {
 namespace {
@@ -57,7 +56,7 @@ public:
   }
 
   WideBvh widen() {
-    const uint32_t cores = options_.threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : options_.threads;
+    const uint32_t cores = threadCount(options_.threads);
     const uint32_t threads = cores == 1 ? 1 : cores * kThreadsPerCore;
     findForests(binary_.nodes.size() >= 2 * kMinNodesPerThread ? threads : 1);
     Subtree all = subtree(0, binary_.bounds, threads);
@@ -294,7 +293,7 @@ private:
   // A slot is a corner of the node: a child goes towards the corner that its center is nearest to, so that slots in the
   // order of a ray's octant are roughly in the order of distance. The best of the remaining pairs, one after another.
   static std::array<const Child*, kBvhWidth> assignSlots(std::span<const Child> children, const Box& box) {
-    std::array<std::array<float, kBvhWidth>, kBvhWidth> gain; // [child][slot]
+    std::array<std::array<float, kBvhWidth>, kBvhWidth> gain;                               // [child][slot]
     const auto center = [](const Box& b) { return 0.0625f * b.lower + 0.0625f * b.upper; }; // no sum overflows
     for (size_t c = 0; c < children.size(); ++c) {
       const glm::vec3 offset = center(children[c].box) - center(box);
@@ -303,25 +302,38 @@ private:
                         ((slot & 4u) != 0 ? offset.z : -offset.z);
       }
     }
+    uint32_t taken = 0; // bits of slots
     const auto bestSlot = [&](size_t child) {
-      const auto& gains = gain[child];
-      return static_cast<uint32_t>(std::max_element(gains.begin(), gains.end()) - gains.begin());
+      float best = -kInfinity;
+      uint32_t found = 0;
+      for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+        const float value = (taken >> slot & 1u) != 0 ? -kInfinity : gain[child][slot];
+        found = value > best ? slot : found;
+        best = value > best ? value : best;
+      }
+      return found;
     };
-    std::array<uint32_t, kBvhWidth> wanted{}; // by each child
-    for (size_t c = 0; c < children.size(); ++c) wanted[c] = bestSlot(c);
+    const auto all = static_cast<uint32_t>(children.size());
+    std::array<uint32_t, kBvhWidth> waiting{}, wanted{}; // children without a slot, and the slot each wants
+    for (uint32_t i = 0; i < all; ++i) {
+      waiting[i] = i;
+      wanted[i] = bestSlot(i);
+    }
     std::array<const Child*, kBvhWidth> slots{};
-    std::array<bool, kBvhWidth> placed{};
-    for (size_t round = 0; round < children.size(); ++round) {
-      size_t next = kBvhWidth;
-      for (size_t c = 0; c < children.size(); ++c) {
-        if (!placed[c] && (next == kBvhWidth || gain[c][wanted[c]] > gain[next][wanted[next]])) next = c;
+    for (uint32_t left = all; left > 0; --left) {
+      uint32_t next = 0;
+      for (uint32_t i = 1; i < left; ++i) {
+        if (gain[waiting[i]][wanted[i]] > gain[waiting[next]][wanted[next]]) next = i;
       }
       const uint32_t slot = wanted[next];
-      placed[next] = true;
-      slots[slot] = &children[next];
-      for (size_t c = 0; c < children.size(); ++c) {
-        gain[c][slot] = -kInfinity;
-        if (!placed[c] && wanted[c] == slot) wanted[c] = bestSlot(c);
+      slots[slot] = &children[waiting[next]];
+      taken |= 1u << slot;
+      for (uint32_t i = next + 1; i < left; ++i) { // those waiting stay in their order
+        waiting[i - 1] = waiting[i];
+        wanted[i - 1] = wanted[i];
+      }
+      for (uint32_t i = 0; i + 1 < left; ++i) {
+        if (wanted[i] == slot) wanted[i] = bestSlot(waiting[i]);
       }
     }
     return slots;
@@ -376,7 +388,7 @@ private:
   const Bvh& binary_;
   const WideBvhOptions& options_;
   std::unique_ptr<Forest[]> forests_; // of the nodes; none of a root with one leaf or none
-  double areaScale_ = 1; // a power of two: it changes no rounding
+  double areaScale_ = 1;              // a power of two: it changes no rounding
 };
 
 } // namespace
