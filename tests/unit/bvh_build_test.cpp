@@ -37,6 +37,7 @@ double medianSplitCost(std::vector<Box>& boxes, size_t first, size_t count, doub
 struct Builder {
   const char* name;
   Bvh (*build)(const std::vector<Box>& boxes, uint32_t threads);
+  friend void PrintTo(const Builder& builder, std::ostream* out) { *out << builder.name; }
 };
 
 const Builder kGood{
@@ -117,6 +118,20 @@ TEST_P(AnyBvh, GeometricProgressionsStayWithinTheDepthLimit) {
     }
     checkTree(boxes, build(boxes));
   }
+}
+
+// Chains, in each of which only the smallest two boxes are nearest to each other, themselves in a progression: deep
+// clusters below deep levels.
+TEST_P(AnyBvh, ProgressionsOfProgressionsStayWithinTheDepthLimit) {
+  std::vector<Box> boxes;
+  for (int i = -110; i < 110; ++i) {
+    for (int k = 0; k < 14; ++k) {
+      const float place = std::ldexp(1.0f, i);
+      const float size = std::ldexp(place, k - 15);
+      boxes.push_back({glm::vec3(place), glm::vec3(place + size)});
+    }
+  }
+  checkTree(boxes, build(boxes));
 }
 
 TEST(Bvh, GeometricProgressionsOfSingleItemsStayWithinTheDepthLimit) {
