@@ -92,6 +92,6 @@ TEST(TraversalCost, OverlappingCopiesCostNoMoreStepsThanRecorded) {
 
 TEST(TraversalCost, AFastTreeCostsNoMoreStepsThanRecorded) {
   const auto [closest, occluded] = cost(crowd(1), BvhBuild::FastBuild);
-  expectAtMost(closest, {.turns = 1, .nodes = 1, .triangles = 1, .instances = 1});
-  expectAtMost(occluded, {.turns = 1, .nodes = 1, .triangles = 1, .instances = 1});
+  expectAtMost(closest, {.turns = 16.51, .nodes = 14.77, .triangles = 2.36, .instances = 1});
+  expectAtMost(occluded, {.turns = 14.63, .nodes = 13.18, .triangles = 1.97, .instances = 1});
 }
