@@ -29,7 +29,7 @@ std::vector<uint32_t> sortedByCells(const std::vector<Box>& boxes) {
   for (const Box& box : boxes) {
     const glm::dvec3 center = 0.5 * (glm::dvec3(box.lower) + glm::dvec3(box.upper)) - glm::dvec3(all.lower);
     const glm::dvec3 size = glm::dvec3(all.upper) - glm::dvec3(all.lower);
-    cells.emplace_back(glm::min(center / size * 2097152.0, glm::dvec3(2097151)));
+    cells.emplace_back(glm::min(center * (2097152.0 / size), glm::dvec3(2097151)));
   }
   std::vector<uint32_t> order(boxes.size());
   std::iota(order.begin(), order.end(), 0u);

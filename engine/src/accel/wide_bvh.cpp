@@ -266,10 +266,18 @@ private:
     for (const Child* child : children) {
       pending.push_back(std::async(std::launch::async, [=, this] { return subtree(child->index, child->box, share); }));
     }
+    std::vector<Subtree> parts;
+    for (std::future<Subtree>& future : pending) parts.push_back(future.get());
+    size_t nodes = wide.nodes.size(), items = wide.order.size();
+    for (const Subtree& part : parts) {
+      nodes += part.nodes.size();
+      items += part.order.size();
+    }
+    wide.nodes.reserve(nodes);
+    wide.order.reserve(items);
     uint32_t deepest = 0;
     double sum = 0;
-    for (std::future<Subtree>& future : pending) {
-      Subtree part = future.get();
+    for (Subtree& part : parts) {
       deepest = std::max(deepest, part.depth);
       sum += part.cost;
       append(wide, first++, part);

@@ -31,22 +31,24 @@ uint64_t spread(uint64_t bits) {
 
 class Cells {
 public:
-  explicit Cells(const Box& all) : lower_(all.lower), size_(glm::dvec3(all.upper) - lower_) {}
+  explicit Cells(const Box& all) : lower_(all.lower) {
+    const glm::dvec3 size = glm::dvec3(all.upper) - lower_;
+    for (int axis = 0; axis < 3; ++axis) cellsPerUnit_[axis] = size[axis] > 0 ? kCells / size[axis] : 0;
+  }
 
   // The bits of the three numbers of the cell that holds the center, in turn.
   [[nodiscard]] uint64_t code(const Box& box) const {
     const glm::dvec3 center = 0.5 * (glm::dvec3(box.lower) + glm::dvec3(box.upper));
     uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(size_[axis] > 0)) continue;
-      const double cell = (center[axis] - lower_[axis]) / size_[axis] * kCells;
+      const double cell = (center[axis] - lower_[axis]) * cellsPerUnit_[axis];
       code |= spread(static_cast<uint64_t>(std::min(cell, kCells - 1))) << axis;
     }
     return code;
   }
 
 private:
-  glm::dvec3 lower_, size_;
+  glm::dvec3 lower_, cellsPerUnit_;
 };
 
 // Equal parts of the list for one thread each.
