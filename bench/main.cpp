@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -43,6 +44,7 @@ struct Options {
   std::string saveRays;
   std::string against;
   bool rayQuery = false;
+  bool fastBuild = false;
 };
 
 // Embree's edges are not watertight and its arithmetic is another: so many rays may meet something else.
@@ -92,7 +94,14 @@ std::vector<uint32_t> readSpirv(const std::filesystem::path& path) {
   return words;
 }
 
-/// A scene as a backend numbers it.
+/// The scene put on the device in another way than the renderer's default.
+struct Rival {
+  const char* name;
+  GpuScene scene;
+  WorldTriangles triangles;
+};
+
+/// A scene as its triangles are numbered on the device.
 struct Numbered {
   const RayBatch& batch;
   const WorldTriangles& triangles;
@@ -157,13 +166,13 @@ void run(const Options& options) {
   const GpuScene scene(device, asset);
   const auto recorded = recordRays(device, scene, view.camera, options.width, options.height, options.bounces);
   const std::string stem = std::filesystem::path(options.scene).stem().string();
-  const WorldTriangles triangles = worldTriangles(asset, Backend::Compute);
-  std::optional<GpuScene> queryScene;
-  WorldTriangles queryTriangles;
-  if (options.rayQuery) {
-    queryScene.emplace(device, asset, Backend::RayQuery);
-    queryTriangles = worldTriangles(asset, Backend::RayQuery);
-  }
+  const WorldTriangles triangles = worldTriangles(asset, Backend::Compute, BvhBuild::FastTrace);
+  std::vector<Rival> rivals;
+  const auto addRival = [&](const char* name, Backend backend, BvhBuild build) {
+    rivals.push_back({name, GpuScene(device, asset, backend, build), worldTriangles(asset, backend, build)});
+  };
+  if (options.rayQuery) addRival("ray-query", Backend::RayQuery, BvhBuild::FastTrace);
+  if (options.fastBuild) addRival("fast-build", Backend::Compute, BvhBuild::FastBuild);
 #ifdef ISOPHOTE_HAS_EMBREE
   const EmbreeTracer embree(triangles.corners);
 #endif
@@ -194,11 +203,11 @@ void run(const Options& options) {
       variant.emplace(device, scene, rays.list, &source);
       contenders.push_back({"against", [&] { variant->reset(); }, [&] { variant->trace(); }, {}, {}});
     }
-    std::optional<RayBatch> query;
-    if (queryScene) {
-      query.emplace(device, *queryScene, rays.list);
-      contenders.push_back({"ray-query", [&] { query->reset(); }, [&] { query->trace(); }, {}, {}});
-      json["ray_query_build_seconds"] = queryScene->statistics().bvhSeconds;
+    std::vector<std::unique_ptr<RayBatch>> batches; // of rivals
+    for (const Rival& rival : rivals) {
+      RayBatch& batch = *batches.emplace_back(std::make_unique<RayBatch>(device, rival.scene, rays.list));
+      contenders.push_back({rival.name, [&batch] { batch.reset(); }, [&batch] { batch.trace(); }, {}, {}});
+      json["build_seconds_of"][rival.name] = rival.scene.statistics().bvhSeconds;
     }
 #ifdef ISOPHOTE_HAS_EMBREE
     std::vector<EmbreeHit> single, packet;
@@ -215,12 +224,12 @@ void run(const Options& options) {
           fmt::format("{} of {} rays of {} meet something else in Embree", wrong, rays.list.rays.size(), rays.name));
     }
 #endif
-    if (query) {
-      const uint64_t others = mismatches(rays.list, {own, triangles}, {*query, queryTriangles});
-      json["ray_query_mismatches"] = others;
+    for (size_t i = 0; i < rivals.size(); ++i) {
+      const uint64_t others = mismatches(rays.list, {own, triangles}, {*batches[i], rivals[i].triangles});
+      json["mismatches_of"][rivals[i].name] = others;
       if (static_cast<double>(others) > kAllowedMismatches * static_cast<double>(rays.list.rays.size()) + 1)
-        throw Error(fmt::format("{} of {} rays of {} meet something else by ray query", others, rays.list.rays.size(),
-                                rays.name));
+        throw Error(fmt::format("{} of {} rays of {} meet something else by {}", others, rays.list.rays.size(),
+                                rays.name, rivals[i].name));
     }
     if (variant && variant->met() != own.met()) throw Error("the kernels of --against give other hits");
     const auto count = static_cast<double>(rays.list.rays.size());
@@ -251,6 +260,7 @@ int main(int argc, char** argv) {
   program.add_option("--save-rays", options.saveRays, "folder for the rays, for isophote bench --rays");
   program.add_option("--against", options.against, "folder with SPIR-V of another build that reads the same layout");
   program.add_flag("--ray-query", options.rayQuery, "also trace through the device's acceleration structures");
+  program.add_flag("--fast-build", options.fastBuild, "also trace through trees of bvh-build=fast-build");
   cli::addEnvironmentFlags(program, options.environment);
   CLI11_PARSE(program, argc, argv);
   try {

@@ -4,8 +4,8 @@
 
 namespace isophote::bench {
 
-WorldTriangles worldTriangles(const Scene& scene, Backend backend) {
-  const PackedScene packed = packScene(scene, backend); // as GpuScene does, so with the same numbers
+WorldTriangles worldTriangles(const Scene& scene, Backend backend, BvhBuild build) {
+  const PackedScene packed = packScene(scene, backend, build); // as GpuScene does, so with the same numbers
   WorldTriangles result;
   for (const gpu::InstanceRecord& instance : packed.instances) {
     const uint32_t first = packed.meshTriangles[instance.mesh];

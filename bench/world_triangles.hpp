@@ -20,8 +20,8 @@ struct WorldTriangles {
   }
 };
 
-/// As GpuScene numbers them for a backend.
-[[nodiscard]] WorldTriangles worldTriangles(const Scene& scene, Backend backend);
+/// As GpuScene numbers them.
+[[nodiscard]] WorldTriangles worldTriangles(const Scene& scene, Backend backend, BvhBuild build);
 
 /// Where along the ray its line meets the plane of a triangle.
 [[nodiscard]] double planeDistance(const glm::vec3 (&corners)[3], glm::dvec3 origin, glm::dvec3 direction);

@@ -171,6 +171,13 @@ std::vector<SettingEntry> makeTable() {
       number(
           {"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup", SettingKind::Execution},
           execution, &X::workgroupSize, 1024, "auto", uint32_t{0}),
+      choice(
+          {"bvh-build", "fast-trace, fast-build", "fast-trace", "fast-build",
+           "trees over the triangles that rays cross in few steps, or that are there soon; where surfaces coincide a "
+           "ray may meet the other one",
+           SettingKind::Execution},
+          &Settings::scene, &SceneSettings::bvhBuild,
+          {{"fast-trace", BvhBuild::FastTrace}, {"fast-build", BvhBuild::FastBuild}}),
       choice({"depth-ledger", "on, off", "on", "on",
               "with a max-depth, follow one in eight paths beyond it to measure what it leaves out",
               SettingKind::Execution},

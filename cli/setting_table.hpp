@@ -17,15 +17,21 @@ struct LayerSettings {
   Denoiser denoiser = Denoiser::None;
 };
 
+/// How the scene is put on the device.
+struct SceneSettings {
+  BvhBuild bvhBuild = BvhBuild::FastTrace;
+};
+
 struct Settings {
   EstimatorSettings estimator;
   ExecutionSettings execution;
   LayerSettings layers;
+  SceneSettings scene;
 };
 
 enum class SettingKind {
   Estimator, ///< changes the samples
-  Execution, ///< changes how the work is cut, never a bit of the image
+  Execution, ///< changes how the work is done, not the image
   Layer      ///< adds a layer, and changes no other
 };
 

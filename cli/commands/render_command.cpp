@@ -236,7 +236,7 @@ int runRender(const RenderOptions& options) {
   const VulkanInstance instance({.validation = options.validation});
   const Device device(instance, options.deviceOptions());
   report.device = device.info();
-  const GpuScene scene(device, loaded.scene, options.backend);
+  const GpuScene scene(device, loaded.scene, options.backend, options.settings.scene.bvhBuild);
   const bool environment = loaded.scene.environment.has_value();
   loaded = {}; // the device has its own copy
   report.sceneStatistics = scene.statistics();

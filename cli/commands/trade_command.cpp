@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -121,7 +122,7 @@ int runTrade(TradeOptions options) {
   };
   prepareDirectory(options.directory);
   (void)singleChanges(options.plan.settings); // complains now, not later
-  const LoadedScene loaded = loadScene(options.scene, options.environment, options.variant);
+  LoadedScene loaded = loadScene(options.scene, options.environment, options.variant);
   for (const std::string& warning : loaded.scene.warnings) printWarning(warning);
   if (!hasLight(loaded.scene))
     throw UsageError("nothing in the scene gives light: there is no error to trade; add --env-color or --env");
@@ -145,7 +146,7 @@ int runTrade(TradeOptions options) {
     line.show(fmt::format("{:3.0f}%  {} elapsed, at most {} left: {}", std::floor(100 * share), clockText(elapsed()),
                           clockText(left), stage));
   };
-  Workbench bench(device, loaded.scene, view, [&] {
+  Workbench bench(device, std::move(loaded.scene), view, [&] {
     if (line.due()) showStage();
     return !interrupted();
   });

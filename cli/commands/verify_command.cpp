@@ -225,7 +225,7 @@ int runVerify(const VerifyOptions& options) {
   if (!sameMaker && !options.quiet)
     printWarning(fmt::format("the image is of version {} on {}: it can be expected to match within its error only",
                              receipt.version, receipt.device));
-  const GpuScene scene(device, loaded.scene, receipt.backend);
+  const GpuScene scene(device, loaded.scene, receipt.backend, receipt.settings.scene.bvhBuild);
   Verifier verifier(device, scene, receipt, view);
   const std::vector<PixelRect> tiles = chosenTiles(receipt.crop, options);
   ProgressLine line(options.quiet);

@@ -94,9 +94,9 @@ private:
   Workbench& bench(const std::string& variant) {
     std::unique_ptr<Workbench>& entry = benches_[variant];
     if (!entry) {
-      const LoadedScene loaded = loadScene(options_.scene, {}, variant);
+      LoadedScene loaded = loadScene(options_.scene, {}, variant);
       view_ = chooseView(loaded.scene, {}, options_.width, std::nullopt);
-      entry = std::make_unique<Workbench>(device_, loaded.scene, view_, [] { return !interrupted(); });
+      entry = std::make_unique<Workbench>(device_, std::move(loaded.scene), view_, [] { return !interrupted(); });
     }
     return *entry;
   }

@@ -195,7 +195,7 @@ int runPlan(const RenderOptions& options) {
   const View view = chooseView(loaded.scene, options.camera, options.width, options.height);
   const VulkanInstance instance({.validation = options.validation});
   const Device device(instance, options.deviceOptions());
-  const GpuScene scene(device, loaded.scene, options.backend);
+  const GpuScene scene(device, loaded.scene, options.backend, options.settings.scene.bvhBuild);
   Memory memory{.scene = scene.statistics().sceneBytes + scene.statistics().bvhBytes};
   PixelRect crop;
   {

@@ -143,6 +143,7 @@ Json requestJson(const RenderReport& report) {
   if (report.adaptive) settings["adaptive"] = true;
   if (report.sceneStatistics.backend != Backend::Compute)
     settings["backend"] = backendName(report.sceneStatistics.backend);
+  if (report.settings.scene.bvhBuild != BvhBuild::FastTrace) settings["bvh-build"] = "fast-build";
   return settings;
 }
 

@@ -5,8 +5,12 @@
 
 namespace isophote::cli {
 
-Workbench::Workbench(const Device& device, const Scene& scene, const View& view, std::function<bool()> goOn)
-    : device_(device), scene_(device, scene), view_(view), goOn_(std::move(goOn)) {}
+Workbench::Workbench(const Device& device, Scene scene, const View& view, std::function<bool()> goOn)
+    : device_(device), scene_(std::move(scene)), view_(view), goOn_(std::move(goOn)) {}
+
+const GpuScene& Workbench::gpuScene(BvhBuild build) {
+  return gpuScenes_.try_emplace(build, device_, scene_, Backend::Compute, build).first->second;
+}
 
 PathTracer& Workbench::tracer(const Settings& settings) {
   const std::string key =
@@ -14,7 +18,8 @@ PathTracer& Workbench::tracer(const Settings& settings) {
   std::unique_ptr<PathTracer>& entry = tracers_[key];
   if (!entry) {
     try {
-      entry = std::make_unique<PathTracer>(device_, scene_, settings.estimator, settings.execution);
+      entry = std::make_unique<PathTracer>(device_, gpuScene(settings.scene.bvhBuild), settings.estimator,
+                                           settings.execution);
     } catch (...) {
       tracers_.erase(key);
       throw;

@@ -24,7 +24,7 @@ struct BenchRender {
 class Workbench {
 public:
   /// @param goOn  asked now and then; false ends the render under way, which then yields nothing
-  Workbench(const Device& device, const Scene& scene, const View& view, std::function<bool()> goOn);
+  Workbench(const Device& device, Scene scene, const View& view, std::function<bool()> goOn);
 
   /// @throws UsageError where the settings do not go together
   [[nodiscard]] std::optional<BenchRender> render(const Settings& settings, uint64_t seed, SampleRange samples);
@@ -39,10 +39,12 @@ public:
   [[nodiscard]] double compileSeconds() const;
 
 private:
+  [[nodiscard]] const GpuScene& gpuScene(BvhBuild build);
   [[nodiscard]] PathTracer& tracer(const Settings& settings);
 
   const Device& device_;
-  GpuScene scene_;
+  Scene scene_;
+  std::map<BvhBuild, GpuScene> gpuScenes_; // made when first asked for
   View view_;
   std::function<bool()> goOn_;
   std::map<std::string, std::unique_ptr<PathTracer>> tracers_;

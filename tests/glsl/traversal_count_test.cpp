@@ -40,7 +40,7 @@ Scene crowd(uint32_t copies) {
 }
 
 // Mean cost of rays that begin among the triangles; [0] closest hits, [1] occlusion.
-std::array<Cost, 2> cost(const Scene& scene) {
+std::array<Cost, 2> cost(const Scene& scene, BvhBuild build = BvhBuild::FastTrace) {
   std::mt19937 random(3);
   std::vector<TraversalCase> rays;
   for (uint32_t i = 0; i < 4096; ++i) {
@@ -49,8 +49,9 @@ std::array<Cost, 2> cost(const Scene& scene) {
                     .tMax = 3.402823466e38f});
   }
   std::array<Cost, 2> result;
-  for (const StepCountResult& ray : test::runOnScene<StepCountResult>(
-           test_glsl_kernels::kernelSource("traversal_count_probe"), GpuScene(test::gpuDevice(), scene), rays)) {
+  for (const StepCountResult& ray :
+       test::runOnScene<StepCountResult>(test_glsl_kernels::kernelSource("traversal_count_probe"),
+                                         GpuScene(test::gpuDevice(), scene, Backend::Compute, build), rays)) {
     for (size_t k = 0; k < 2; ++k) {
       result[k].turns += ray.turns[k] / 4096.0;
       result[k].nodes += ray.nodes[k] / 4096.0;
@@ -87,4 +88,10 @@ TEST(TraversalCost, OverlappingCopiesCostNoMoreStepsThanRecorded) {
   const auto [closest, occluded] = cost(crowd(5));
   expectAtMost(closest, {.turns = 21.77, .nodes = 20.20, .triangles = 3.17, .instances = 1.56});
   expectAtMost(occluded, {.turns = 17.32, .nodes = 16.41, .triangles = 2.41, .instances = 1.34});
+}
+
+TEST(TraversalCost, AFastTreeCostsNoMoreStepsThanRecorded) {
+  const auto [closest, occluded] = cost(crowd(1), BvhBuild::FastBuild);
+  expectAtMost(closest, {.turns = 16.51, .nodes = 14.77, .triangles = 2.36, .instances = 1});
+  expectAtMost(occluded, {.turns = 14.63, .nodes = 13.18, .triangles = 1.97, .instances = 1});
 }

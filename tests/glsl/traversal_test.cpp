@@ -19,10 +19,17 @@ using gpu::TraversalResult;
 
 namespace {
 
+/// How the rays find what they meet.
+struct Tracing {
+  BvhBuild build = BvhBuild::FastTrace;
+  std::span<const gpu::SpecConstant> settings = {};
+};
+
 std::vector<TraversalResult> trace(const Scene& scene, const std::vector<TraversalCase>& rays,
-                                   std::span<const gpu::SpecConstant> settings = {}) {
+                                   const Tracing& how = {}) {
   return test::runOnScene<TraversalResult>(test_glsl_kernels::kernelSource("traversal_probe"),
-                                           GpuScene(test::gpuDevice(), scene), rays, settings);
+                                           GpuScene(test::gpuDevice(), scene, Backend::Compute, how.build), rays,
+                                           how.settings);
 }
 
 TraversalCase ray(glm::vec3 origin, glm::vec3 direction, float tMax = 3.402823466e38f) {
@@ -43,8 +50,8 @@ std::vector<TraversalCase> randomRays(uint32_t count, float spread, uint32_t see
 // Every ray that brute force in double decides with some margin must come out the same. t carries the roundings of
 // coordinates as large as `reach`: some 50 of 2^-24, and more where the ray meets the triangle at a flat angle.
 void expectBruteForceHits(const Scene& scene, const std::vector<TraversalCase>& rays, double reach,
-                          double shareOfHits = 0.2, std::span<const gpu::SpecConstant> settings = {}) {
-  const std::vector<TraversalResult> results = trace(scene, rays, settings);
+                          double shareOfHits = 0.2, const Tracing& how = {}) {
+  const std::vector<TraversalResult> results = trace(scene, rays, how);
   uint32_t hits = 0, misses = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
     const TraversalResult& result = results[i];
@@ -93,7 +100,47 @@ TEST(Traversal, FindsWhatBruteForceFindsAmongMirroredAndStretchedInstances) {
 TEST(Traversal, TheFastTestFindsTheSameAwayFromEdges) {
   const gpu::SpecConstant fast[] = {{setting_id::kIntersection, static_cast<uint32_t>(Intersection::Fast)}};
   const Scene scene = test::sceneOf({test::meshOf(test::triangleSoup(600, 0.3f, 6))});
-  expectBruteForceHits(scene, randomRays(8000, 1.5f, 7), 1, 0.2, fast);
+  expectBruteForceHits(scene, randomRays(8000, 1.5f, 7), 1, 0.2, {.settings = fast});
+}
+
+// Among them triangles of no area, and more copies of one triangle than the builder looks at together.
+TEST(Traversal, FindsWhatBruteForceFindsInAFastTree) {
+  std::vector<glm::vec3> positions = test::triangleSoup(3000, 0.15f, 5);
+  for (size_t i = 0; i < 600; ++i) {
+    const glm::vec3 a = positions[3 * i], b = positions[3 * i + 1];
+    positions.insert(positions.end(), {a, a, a, a, b, a});
+  }
+  for (int copy = 0; copy < 1100; ++copy) positions.insert(positions.end(), {{2, 2, 2}, {2.1f, 2, 2}, {2, 2.1f, 2}});
+  expectBruteForceHits(test::sceneOf({test::meshOf(positions)}), randomRays(1500, 1.5f, 6), 1, 0.2,
+                       {.build = BvhBuild::FastBuild});
+}
+
+// Of many sizes: spheres of 3,480 triangles, and a soup that is fine in one corner and coarse elsewhere.
+TEST(Traversal, FastTreesFindTheHitsOfGoodOnes) {
+  std::mt19937 random(7);
+  std::vector<Mesh> meshes{test::meshOf(test::triangleSoup(20000, 0.1f, 8))};
+  std::vector<glm::vec3> fine = test::triangleSoup(20000, 0.1f, 9);
+  for (glm::vec3& position : fine) position = glm::vec3(0.7f) + 0.01f * position;
+  meshes.push_back(test::meshOf(fine));
+  for (int i = 0; i < 4; ++i) meshes.push_back(test::sphereMesh(0.8f * test::randomDirection(random), 0.3f, 30));
+  const Scene scene = test::sceneOf(std::move(meshes));
+  std::vector<TraversalCase> rays = randomRays(20000, 1.5f, 10);
+  for (size_t i = 0; i < rays.size(); i += 2) // to where it is fine
+    rays[i].direction = glm::vec3(0.7f) + 0.01f * test::randomDirection(random) - rays[i].origin;
+  const auto good = trace(scene, rays);
+  const auto fast = trace(scene, rays, {.build = BvhBuild::FastBuild});
+  uint32_t hits = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(fast[i].stackOverflow, 0u);
+    ASSERT_EQ(fast[i].found, good[i].found) << i;
+    ASSERT_EQ(fast[i].occluded, good[i].occluded) << i;
+    if (good[i].found == 0) continue;
+    ++hits;
+    ASSERT_EQ(fast[i].t, good[i].t) << i; // the same arithmetic
+    ASSERT_EQ(fast[i].geometry, good[i].geometry) << i;
+    ASSERT_EQ(fast[i].primitiveIndex, good[i].primitiveIndex) << i;
+  }
+  EXPECT_GT(hits, rays.size() / 2);
 }
 
 TEST(Traversal, FindsTheOneTriangleOfATinyScene) {

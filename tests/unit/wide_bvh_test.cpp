@@ -4,32 +4,18 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <random>
 
 #include <gtest/gtest.h>
 
+#include "accel/fast_bvh.hpp"
+#include "bvh_checks.hpp"
+
 using namespace isophote;
 using gpu::BvhNode;
+using test::contains;
+using test::randomBoxes;
 
 namespace {
-
-std::vector<Box> randomBoxes(uint32_t count, uint32_t seed, float size, float spread = 10) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> position(-spread, spread);
-  std::exponential_distribution<float> extent(1 / size);
-  std::vector<Box> boxes(count);
-  for (Box& box : boxes) {
-    const glm::vec3 lower(position(random), position(random), position(random));
-    box.grow(lower);
-    box.grow(lower + glm::vec3(extent(random), extent(random), extent(random)));
-  }
-  return boxes;
-}
-
-bool contains(const Box& outer, const Box& inner) {
-  return glm::all(glm::lessThanEqual(outer.lower, inner.lower)) &&
-         glm::all(glm::greaterThanEqual(outer.upper, inner.upper));
-}
 
 uint32_t itemsOf(const BvhNode& node, uint32_t slot) {
   return std::popcount(node.contents >> gpu::kBvhItemsPerSlot * slot & ((1u << gpu::kBvhItemsPerSlot) - 1));
@@ -83,6 +69,8 @@ TEST(WideBvh, HoldsEveryItemOnceInsideItsBoxes) {
     const std::vector<Box> boxes = randomBoxes(count, count, 0.3f);
     const Bvh binary = buildBvh(boxes);
     EXPECT_LE(checkTree(boxes, widenBvh(binary)), binary.maxDepth);
+    const Bvh fast = buildFastBvh(boxes);
+    EXPECT_LE(checkTree(boxes, widenBvh(fast)), fast.maxDepth);
   }
 }
 
@@ -131,11 +119,17 @@ TEST(WideBvh, FramesAreAtMostTwiceAndABitAsWideAsTheirNode) {
   }
 }
 
+TEST(WideBvh, CostIsTheSumOfVisitedAreas) {
+  // Two unit cubes 9 apart: root half area 10*1 + 1*1 + 1*10 = 21, each leaf 3.
+  const std::vector<Box> boxes{{glm::vec3(0), glm::vec3(1)}, {glm::vec3(9, 0, 0), glm::vec3(10, 1, 1)}};
+  EXPECT_DOUBLE_EQ(widenBvh(buildBvh(boxes, {.maxLeafItems = 1})).sahCost, 1 + 2 * 3.0 / 21.0);
+}
+
 TEST(WideBvh, CostsLessThanTheBinaryTreeAndFillsItsNodes) {
   const std::vector<Box> boxes = randomBoxes(20000, 3, 0.05f);
   const Bvh binary = buildBvh(boxes, {.itemCost = 0.4f});
   const WideBvh wide = widenBvh(binary);
-  EXPECT_LT(wide.sahCost, 0.6 * binary.sahCost);
+  EXPECT_LT(wide.sahCost, 0.6 * test::expectedCost(binary));
   uint64_t children = 0;
   for (const BvhNode& node : wide.nodes) {
     for (uint32_t slot = 0; slot < gpu::kBvhWidth; ++slot) children += isInner(node, slot) || itemsOf(node, slot) > 0;
@@ -156,12 +150,14 @@ TEST(WideBvh, SlotsGoByPlace) {
 }
 
 TEST(WideBvh, DoesNotDependOnTheNumberOfThreads) {
-  const Bvh binary = buildBvh(randomBoxes(200000, 21, 0.05f), {.maxLeafItems = 1});
-  const WideBvh alone = widenBvh(binary, {.threads = 1});
-  const WideBvh shared = widenBvh(binary, {.threads = 3});
-  ASSERT_EQ(alone.nodes.size(), shared.nodes.size());
-  EXPECT_EQ(std::memcmp(alone.nodes.data(), shared.nodes.data(), alone.nodes.size() * sizeof(BvhNode)), 0);
-  EXPECT_EQ(alone.order, shared.order);
-  EXPECT_EQ(alone.maxDepth, shared.maxDepth);
-  EXPECT_EQ(alone.sahCost, shared.sahCost);
+  const std::vector<Box> boxes = randomBoxes(200000, 21, 0.05f);
+  for (const Bvh& binary : {buildBvh(boxes, {.maxLeafItems = 1}), buildFastBvh(boxes)}) {
+    const WideBvh alone = widenBvh(binary, {.threads = 1});
+    const WideBvh shared = widenBvh(binary, {.threads = 3});
+    ASSERT_EQ(alone.nodes.size(), shared.nodes.size());
+    EXPECT_EQ(std::memcmp(alone.nodes.data(), shared.nodes.data(), alone.nodes.size() * sizeof(BvhNode)), 0);
+    EXPECT_EQ(alone.order, shared.order);
+    EXPECT_EQ(alone.maxDepth, shared.maxDepth);
+    EXPECT_EQ(alone.sahCost, shared.sahCost);
+  }
 }

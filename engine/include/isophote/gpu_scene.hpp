@@ -42,9 +42,11 @@ public:
   ///
   /// @param backend  RayQuery has the device build its acceleration structures in place of the BVHs; renders of the
   ///                 scene then use them. It needs a Device with DeviceOptions::rayQuery.
+  /// @param bvhBuild  of Backend::Compute; a device builds its own structures for fast rays
   /// @throws LimitError with needed and available bytes, before anything is uploaded (acceleration structures: after
   ///         what they are built from); UsageError where the device has no ray query enabled
-  GpuScene(const Device& device, const Scene& scene, Backend backend = Backend::Compute);
+  GpuScene(const Device& device, const Scene& scene, Backend backend = Backend::Compute,
+           BvhBuild bvhBuild = BvhBuild::FastTrace);
   GpuScene(GpuScene&&) noexcept;
   GpuScene& operator=(GpuScene&&) noexcept;
   ~GpuScene();

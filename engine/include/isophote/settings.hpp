@@ -72,6 +72,10 @@ struct EstimatorSettings {
 /// another triangle.
 enum class Backend : uint32_t { Compute, RayQuery };
 
+/// What a scene's BVHs are built for: rays that take few steps, or being there soon. A ray that meets two surfaces at
+/// the same distance may get the other one; the image is the same otherwise.
+enum class BvhBuild : uint32_t { FastTrace, FastBuild };
+
 /// How the work is cut; never changes a bit of the image on one device and driver.
 struct ExecutionSettings {
   uint32_t pathPoolSize = 0;       ///< 0: chosen for the device

@@ -5,14 +5,13 @@
 #include <future>
 #include <limits>
 #include <optional>
-#include <thread>
 #include <tuple>
 #include <utility>
 
+#include "accel/parallel_for.hpp"
+
 namespace isophote {
 namespace {
-
-using gpu::kMaxBvhDepth;
 
 constexpr uint32_t kMaxBins = 16;
 
@@ -110,7 +109,7 @@ public:
 
   // Appends the subtree below a node made of `halves`, depth first; its root is the first node appended.
   // `levels`: inner nodes allowed from this one to a leaf, itself included. Returns how many there are.
-  uint32_t build(const Halves& halves, uint32_t levels, uint32_t threads, std::vector<BinaryNode>& nodes) {
+  uint32_t build(const Halves& halves, uint32_t levels, uint32_t threads, UnsetVector<BinaryNode>& nodes) {
     const size_t self = nodes.size();
     nodes.emplace_back();
     const bool parallel = threads > 1 && std::min(halves.left.count, halves.right.count) >= kMinItemsPerThread;
@@ -203,7 +202,7 @@ private:
   }
 
   // A leaf, or a subtree appended to `nodes`.
-  Child buildChild(const Range& range, uint32_t levels, uint32_t threads, std::vector<BinaryNode>& nodes) {
+  Child buildChild(const Range& range, uint32_t levels, uint32_t threads, UnsetVector<BinaryNode>& nodes) {
     const std::optional<Halves> halves = split(range, levels);
     if (!halves) return {range.box, range.first, range.count, 0};
     const auto index = static_cast<uint32_t>(nodes.size());
@@ -212,8 +211,8 @@ private:
 
   // Appends the same nodes in the same order as two calls of buildChild, the left half on a thread of its own.
   std::pair<Child, Child> buildInParallel(const Halves& halves, uint32_t levels, uint32_t threads,
-                                          std::vector<BinaryNode>& nodes) {
-    std::vector<BinaryNode> leftNodes, rightNodes;
+                                          UnsetVector<BinaryNode>& nodes) {
+    UnsetVector<BinaryNode> leftNodes, rightNodes;
     auto pending =
         std::async(std::launch::async, [&] { return buildChild(halves.left, levels, threads / 2, leftNodes); });
     Child right = buildChild(halves.right, levels, threads - threads / 2, rightNodes);
@@ -224,7 +223,7 @@ private:
   }
 
   // Moves a subtree with indices of its own to the end of `nodes`.
-  static void append(std::vector<BinaryNode>& part, Child& root, std::vector<BinaryNode>& nodes) {
+  static void append(UnsetVector<BinaryNode>& part, Child& root, UnsetVector<BinaryNode>& nodes) {
     const auto offset = static_cast<uint32_t>(nodes.size());
     for (BinaryNode& node : part) {
       if (node.count0 == 0) node.child0 += offset;
@@ -238,28 +237,7 @@ private:
   const BvhBuildOptions& options_;
 };
 
-// Expected node steps and item tests of a random ray that hits `bounds`: a box inside it is hit with the probability
-// that is the ratio of their areas (Goldsmith and Salmon 1987). A root without area counts its own step alone.
-double expectedCost(const std::vector<BinaryNode>& nodes, const Box& bounds, const BvhBuildOptions& options) {
-  const double rootArea = halfArea(bounds);
-  double sum = 0;
-  const auto add = [&](const Box& box, uint32_t count) {
-    sum += halfArea(box) * (count == 0 ? options.nodeCost : options.itemCost * static_cast<double>(count));
-  };
-  for (const BinaryNode& node : nodes) {
-    add({node.lower0, node.upper0}, node.count0);
-    add({node.lower1, node.upper1}, node.count1);
-  }
-  return options.nodeCost + (rootArea > 0 ? sum / rootArea : 0);
-}
-
 } // namespace
-
-double halfArea(const Box& box) {
-  if (box.lower.x > box.upper.x) return 0;
-  const glm::dvec3 extent = glm::dvec3(box.upper) - glm::dvec3(box.lower);
-  return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
-}
 
 Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options) {
   std::vector<Item> items(boxes.size());
@@ -272,17 +250,16 @@ Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options) {
   Bvh bvh;
   bvh.bounds = all.box;
   Builder builder(items, options);
-  if (const auto halves = builder.split(all, kMaxBvhDepth)) {
-    const uint32_t cores = options.threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : options.threads;
+  if (const auto halves = builder.split(all, options.maxDepth)) {
+    const uint32_t cores = threadCount(options.threads);
     const uint32_t threads = cores == 1 ? 1 : cores * kThreadsPerCore;
-    bvh.maxDepth = builder.build(*halves, kMaxBvhDepth, threads, bvh.nodes);
+    bvh.maxDepth = builder.build(*halves, options.maxDepth, threads, bvh.nodes);
   } else {
     bvh.nodes.push_back(nodeOf({all.box, 0, all.count, 0}, {}));
     bvh.maxDepth = 1;
   }
   bvh.order.reserve(items.size());
   for (const Item& item : items) bvh.order.push_back(item.number);
-  bvh.sahCost = expectedCost(bvh.nodes, bvh.bounds, options);
   return bvh;
 }
 

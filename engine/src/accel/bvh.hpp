@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "accel/unset_vector.hpp"
 #include "shared/geometry_types.h"
 
 namespace isophote {
@@ -25,7 +26,11 @@ struct Box {
 };
 
 /// Half the surface area, in double so that no finite box overflows; 0 for an empty box.
-[[nodiscard]] double halfArea(const Box& box);
+[[nodiscard]] inline double halfArea(const Box& box) {
+  if (box.lower.x > box.upper.x) return 0;
+  const glm::dvec3 extent = glm::dvec3(box.upper) - glm::dvec3(box.lower);
+  return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+}
 
 /// Both children's boxes in the parent. count 0: child is an inner node's index; else child is the first of `count`
 /// leaf items. An absent child has lower > upper.
@@ -40,13 +45,12 @@ struct BinaryNode {
   uint32_t count1;
 };
 
-/// Nodes with indices relative to this BVH (root 0, leaf items index `order`). Never empty: no boxes give one node with
-/// two absent children; one leaf gives a node whose second child is absent.
+/// Nodes with indices relative to this BVH (root 0, leaf items index `order`), otherwise in any order. Never empty: no
+/// boxes give one node with two absent children; one leaf gives a node whose second child is absent.
 struct Bvh {
-  std::vector<BinaryNode> nodes; ///< parents before children
-  std::vector<uint32_t> order;   ///< item numbers in leaf order
-  uint32_t maxDepth = 0;         ///< inner nodes from root to the deepest leaf, <= gpu::kMaxBvhDepth
-  double sahCost = 0;            ///< expected node steps + item tests for a random ray that hits the root box
+  UnsetVector<BinaryNode> nodes; ///< the root first
+  std::vector<uint32_t> order;   ///< item numbers; those of a leaf follow one another
+  uint32_t maxDepth = 0;         ///< inner nodes from root to the deepest leaf, <= that of the options
   Box bounds;
 };
 
@@ -54,11 +58,12 @@ struct BvhBuildOptions {
   uint32_t maxLeafItems = 3;
   float nodeCost = 1;
   float itemCost = 1;
-  uint32_t threads = 0; ///< 0: all cores; the result does not depend on it
+  uint32_t maxDepth = gpu::kMaxBvhDepth; ///< of inner nodes; maxLeafItems * 2^maxDepth boxes must be no fewer
+  uint32_t threads = 0;                  ///< 0: all cores; the result does not depend on it
 };
 
 /// Builds by binned surface-area heuristic (Wald 2007), falling back to object medians near the depth limit.
-/// Boxes must be finite. Equal input gives equal output on any number of threads.
+/// Boxes must be finite. Parents come before their children. Equal input gives equal output on any number of threads.
 [[nodiscard]] Bvh buildBvh(std::span<const Box> boxes, const BvhBuildOptions& options = {});
 
 } // namespace isophote

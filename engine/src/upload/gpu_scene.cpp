@@ -127,11 +127,12 @@ void setBvhStatistics(const BvhStatistics& bvh, SceneStatistics& statistics) {
 
 } // namespace
 
-GpuScene::GpuScene(const Device& device, const Scene& scene, Backend backend) : impl_(std::make_unique<Impl>()) {
+GpuScene::GpuScene(const Device& device, const Scene& scene, Backend backend, BvhBuild bvhBuild)
+    : impl_(std::make_unique<Impl>()) {
   if (backend == Backend::RayQuery && !device.impl().acceleration)
     throw UsageError("a scene for ray query needs a device that was made with it");
   const auto packStart = Clock::now();
-  const PackedScene packed = packScene(scene, backend);
+  const PackedScene packed = packScene(scene, backend, bvhBuild);
   SceneStatistics& statistics = impl_->statistics;
   statistics.backend = backend;
   setBvhStatistics(packed.bvh, statistics);

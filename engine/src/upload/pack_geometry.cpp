@@ -34,8 +34,9 @@ template <class T> uint32_t append(std::vector<T>& all, const std::vector<T>& va
 
 class MeshPacker {
 public:
-  MeshPacker(const Scene& scene, const PackedMaterials& materials, Backend backend, PackedScene& packed)
-      : scene_(scene), materials_(materials), backend_(backend), packed_(packed) {}
+  MeshPacker(const Scene& scene, const PackedMaterials& materials, Backend backend, BvhBuild bvhBuild,
+             PackedScene& packed)
+      : scene_(scene), materials_(materials), backend_(backend), bvhBuild_(bvhBuild), packed_(packed) {}
 
   // Appends the meshes of a group; their BVH nodes go to `nodes` with indices relative to that array.
   PackedMesh add(const MeshGroup& group, std::vector<gpu::BvhNode>& nodes) {
@@ -107,7 +108,7 @@ private:
     for (size_t i = 0; i < triangles.size(); ++i) {
       for (const glm::vec3& v : {triangles[i].v0, triangles[i].v1, triangles[i].v2}) boxes[i].grow(v);
     }
-    WideBvh bvh = buildTimedBvh(boxes, gpu::kBvhItemsPerSlot, packed_.bvh);
+    WideBvh bvh = buildTimedBvh(boxes, gpu::kBvhItemsPerSlot, bvhBuild_, packed_.bvh);
     const auto firstTriangle = static_cast<uint32_t>(packed_.triangles.size());
     mesh.rootNode = static_cast<uint32_t>(nodes.size());
     mesh.maxDepth = bvh.maxDepth;
@@ -181,6 +182,7 @@ private:
   const Scene& scene_;
   const PackedMaterials& materials_;
   Backend backend_;
+  BvhBuild bvhBuild_;
   PackedScene& packed_;
   std::vector<Source> sources_; // of packed_.geometries
   std::map<uint32_t, bool> opaqueImages_;
@@ -206,18 +208,18 @@ std::vector<bool> usedMeshes(const Scene& scene) {
 }
 
 PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUsed, const PackedMaterials& materials,
-                            Backend backend, PackedScene& packed) {
+                            Backend backend, BvhBuild bvhBuild, PackedScene& packed) {
   requireTriangleIndices(scene, meshUsed);
   PackedGeometry result;
   const MeshGroups groups = groupMeshes(scene);
   std::vector<gpu::BvhNode> meshNodes;
-  MeshPacker packer(scene, materials, backend, packed);
+  MeshPacker packer(scene, materials, backend, bvhBuild, packed);
   for (const MeshGroup& group : groups.groups) {
     packed.meshTriangles.push_back(static_cast<uint32_t>(packed.triangles.size()));
     result.meshes.push_back(packer.add(group, meshNodes));
   }
   packed.meshTriangles.push_back(static_cast<uint32_t>(packed.triangles.size()));
-  result.sceneInstances = packInstances(scene, groups.placements, result.meshes, backend, packed);
+  result.sceneInstances = packInstances(scene, groups.placements, result.meshes, backend, bvhBuild, packed);
   const auto topNodes = static_cast<uint32_t>(packed.nodes.size());
   for (gpu::BvhNode& node : meshNodes) node.firstChild += topNodes;
   packed.nodes.insert(packed.nodes.end(), meshNodes.begin(), meshNodes.end());

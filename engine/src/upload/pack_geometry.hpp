@@ -42,6 +42,7 @@ struct PackedGeometry {
 /// statistics. Reads packed.worldOrigin.
 /// @throws LimitError where an index of the device format would overflow
 [[nodiscard]] PackedGeometry packGeometry(const Scene& scene, const std::vector<bool>& meshUsed,
-                                          const PackedMaterials& materials, Backend backend, PackedScene& packed);
+                                          const PackedMaterials& materials, Backend backend, BvhBuild bvhBuild,
+                                          PackedScene& packed);
 
 } // namespace isophote

@@ -81,7 +81,7 @@ Box sphereBox(const gpu::InstanceRecord& record) {
 
 // Puts the records into the leaf order of the BVH over them, which it returns.
 std::vector<uint32_t> buildTopLevel(const std::vector<PackedMesh>& meshes, std::vector<gpu::InstanceRecord> records,
-                                    PackedScene& packed) {
+                                    BvhBuild bvhBuild, PackedScene& packed) {
   std::vector<Box> boxes;
   uint32_t deepestMesh = 0;
   for (const gpu::InstanceRecord& record : records) {
@@ -90,7 +90,7 @@ std::vector<uint32_t> buildTopLevel(const std::vector<PackedMesh>& meshes, std::
     if (!isSphere) deepestMesh = std::max(deepestMesh, meshes[record.mesh].maxDepth);
   }
   // One instance a leaf: entering an instance costs more than a node.
-  const WideBvh top = buildTimedBvh(boxes, 1, packed.bvh);
+  const WideBvh top = buildTimedBvh(boxes, 1, bvhBuild, packed.bvh);
   packed.nodes = top.nodes;
   packed.bvh.maxDepth = top.maxDepth + deepestMesh;
   packed.bvh.sahCost = top.sahCost;
@@ -108,7 +108,8 @@ std::vector<uint32_t> buildTopLevel(const std::vector<PackedMesh>& meshes, std::
 } // namespace
 
 std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<GroupPlacement>& placements,
-                                    const std::vector<PackedMesh>& meshes, Backend backend, PackedScene& packed) {
+                                    const std::vector<PackedMesh>& meshes, Backend backend, BvhBuild bvhBuild,
+                                    PackedScene& packed) {
   std::vector<gpu::InstanceRecord> records;
   std::vector<uint32_t> sceneInstances;
   for (const GroupPlacement& placement : placements) {
@@ -130,7 +131,7 @@ std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<GroupP
     return sceneInstances;
   }
   if (records.empty()) return {};
-  const std::vector<uint32_t> order = buildTopLevel(meshes, std::move(records), packed);
+  const std::vector<uint32_t> order = buildTopLevel(meshes, std::move(records), bvhBuild, packed);
   std::vector<uint32_t> ordered;
   for (const uint32_t item : order) ordered.push_back(sceneInstances[item]);
   return ordered;

@@ -17,6 +17,6 @@ namespace isophote {
 /// @return per InstanceRecord: GroupPlacement::instance; of a sphere light, in scene.lights
 [[nodiscard]] std::vector<uint32_t> packInstances(const Scene& scene, const std::vector<GroupPlacement>& placements,
                                                   const std::vector<PackedMesh>& meshes, Backend backend,
-                                                  PackedScene& packed);
+                                                  BvhBuild bvhBuild, PackedScene& packed);
 
 } // namespace isophote

@@ -37,13 +37,13 @@ void removeUnfound(PackedScene& packed) {
 
 } // namespace
 
-PackedScene packScene(const Scene& scene, Backend backend) {
+PackedScene packScene(const Scene& scene, Backend backend, BvhBuild bvhBuild) {
   PackedScene packed;
   packed.features = sceneFeatures(scene);
   setWorld(scene, packed);
   const std::vector<bool> meshUsed = usedMeshes(scene);
   const PackedMaterials materials = packMaterials(scene, meshUsed, packed);
-  const PackedGeometry geometry = packGeometry(scene, meshUsed, materials, backend, packed);
+  const PackedGeometry geometry = packGeometry(scene, meshUsed, materials, backend, bvhBuild, packed);
   packLights(scene, geometry, packed);
   packed.tables.facets = packed.features.has(Feature::kHasSpecular);
   packed.tables.clearcoat = packed.features.has(Feature::kHasClearcoat);

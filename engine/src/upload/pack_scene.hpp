@@ -85,6 +85,7 @@ struct PackedScene {
 
 /// @param backend  RayQuery: no BVH; triangles in the order of the ranges, instances in that of the Scene
 /// @throws LimitError where a 32-bit index of the device format would overflow
-[[nodiscard]] PackedScene packScene(const Scene& scene, Backend backend = Backend::Compute);
+[[nodiscard]] PackedScene packScene(const Scene& scene, Backend backend = Backend::Compute,
+                                    BvhBuild bvhBuild = BvhBuild::FastTrace);
 
 } // namespace isophote
