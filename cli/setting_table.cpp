@@ -157,6 +157,10 @@ std::vector<SettingEntry> makeTable() {
       choice({"depth-ledger", "on, off", "on", "on",
               "with a max-depth, follow one in eight paths beyond it to measure what it leaves out", true},
              execution, &X::depthLedger, onOff),
+      choice({"pipeline", "wavefront, fused, auto", "wavefront", "wavefront",
+              "a kernel for each stage, all stages in one, or whichever the first submits find faster", true},
+             execution, &X::pipeline,
+             {{"wavefront", Pipeline::Wavefront}, {"fused", Pipeline::Fused}, {"auto", Pipeline::Auto}}),
       choice({"specialize", "on, off", "on", "on", "kernels without what the scene does not use", true}, execution,
              &X::specialize, onOff),
   };

@@ -32,6 +32,7 @@ constexpr uint32_t kCpuWorkgroup = 64;
 constexpr uint32_t kGpuWorkgroup = 128;
 constexpr uint32_t kMaxWavesPerSubmit = 64;
 constexpr uint32_t kDispatchesPerWave = 12;
+constexpr uint32_t kMaxStepsPerDispatch = 1024;
 // Watchdogs kill long dispatches, and Ctrl-C must be answered: above this the wave gets smaller.
 constexpr double kLongestDispatchMilliseconds = 100;
 constexpr uint32_t kFewestActivePaths = 256;
@@ -50,7 +51,7 @@ struct PathTracer::Impl {
   gpu::Buffer sceneView; ///< the scene's, with the tables
   /// One white texel, bound where an all-features kernel runs on a scene without textures.
   gpu::TextureArray placeholderTextures;
-  std::optional<WavefrontKernels> kernels;
+  std::optional<RenderKernels> kernels;
   FeatureSet kernelFeatures;
   KernelNeeds kernelNeeds;
   gpu::Buffer pixelList; ///< crop pixels to sample; null: all
@@ -62,6 +63,7 @@ struct PathTracer::Impl {
   SampleRange left;     ///< of the last one
   uint64_t workEnd = 0;
   uint32_t wavesPerSubmit = 1;
+  uint32_t stepsPerDispatch = 1; ///< of the fused kernel
   uint32_t activeLimit = 0;
   bool accepting = true;   ///< new samples may start
   gpu::WaveState last{};   ///< at the end of the last submit
@@ -83,8 +85,9 @@ struct PathTracer::Impl {
   void dispatch(const gpu::Kernel& kernel, uint32_t stage);
   void recordPrepare(uint32_t part);
   void recordWave();
-  void submit();
-  void adapt();
+  void recordFused();
+  void submit(Pipeline pipeline);
+  void adapt(Pipeline pipeline);
   void retire();
   [[nodiscard]] bool done() const {
     const bool workLeft = accepting && last.nextWork < workEnd;
@@ -118,7 +121,9 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   }
   const KernelNeeds needs = {.depthLedger = target.options().depthLedger && execution.depthLedger &&
                                             estimator.maxDepth != kUnlimitedDepth,
-                             .pixelList = pixelList.bytes() != 0};
+                             .pixelList = pixelList.bytes() != 0,
+                             .wavefront = execution.pipeline != Pipeline::Fused,
+                             .fused = execution.pipeline != Pipeline::Wavefront};
   if (kernels && features == kernelFeatures && needs == kernelNeeds) return;
   if (needs.depthLedger != kernelNeeds.depthLedger) pool.reset(); // it holds other state
   kernelNeeds = needs;
@@ -128,18 +133,18 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
     const gpu::TextureUpload upload{.image = &white};
     placeholderTextures = gpu::TextureArray(device, {&upload, 1});
   }
-  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout(), needs);
+  kernels = makeRenderKernels(device, features, estimator, workgroupSize, textures().layout(), needs);
   kernelFeatures = features;
   totals.compileSeconds += secondsSince(start);
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
     pool.emplace(device, paths,
-                 PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                 PathPoolParts{.shadows = samplesLights(features, estimator, needs.depthLedger),
                                .interiors = features.has(Feature::kHasTransmission),
                                .receivers = keepsReceivers(),
                                .media = features.has(Feature::kHasVolumes),
-                               .scatteringMedia = kernels->shadeMedium.has_value(),
+                               .scatteringMedia = features.has(Feature::kHasScatteringMedia),
                                .straight = features.has(Feature::kHasTransmission) &&
                                            estimator.shadowTransmission == ShadowTransmission::Straight,
                                .beyond = needs.depthLedger});
@@ -195,7 +200,8 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,
           .prepare = prepare,
-          .workgroupSize = workgroupSize};
+          .workgroupSize = workgroupSize,
+          .steps = stepsPerDispatch};
 }
 
 void PathTracer::Impl::recordPrepare(uint32_t part) {
@@ -210,38 +216,66 @@ void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t stage) {
 }
 
 void PathTracer::Impl::recordWave() {
+  const WavefrontKernels& stages = kernels->wavefront.value();
   recordPrepare(gpu::kPrepareRegenerate);
-  dispatch(kernels->regenerate, gpu::kStageRegenerate);
+  dispatch(stages.regenerate, gpu::kStageRegenerate);
   recordPrepare(gpu::kPrepareIntersect);
-  dispatch(kernels->intersectClosest, gpu::kStageIntersectClosest);
-  if (kernels->shadeMedium) {
+  dispatch(stages.intersectClosest, gpu::kStageIntersectClosest);
+  if (stages.shadeMedium) {
     recordPrepare(gpu::kPrepareMedium);
-    dispatch(*kernels->shadeMedium, gpu::kStageShadeMedium);
+    dispatch(*stages.shadeMedium, gpu::kStageShadeMedium);
   }
   recordPrepare(gpu::kPrepareShade);
-  if (kernels->shadeEscaped) dispatch(*kernels->shadeEscaped, gpu::kStageShadeEscaped);
-  dispatch(kernels->shadeSurface, gpu::kStageShadeSurface);
+  if (stages.shadeEscaped) dispatch(*stages.shadeEscaped, gpu::kStageShadeEscaped);
+  dispatch(stages.shadeSurface, gpu::kStageShadeSurface);
   recordPrepare(gpu::kPrepareShadow);
-  if (kernels->intersectShadow) dispatch(*kernels->intersectShadow, gpu::kStageIntersectShadow);
-  dispatch(kernels->accumulate, gpu::kStageAccumulate);
+  if (stages.intersectShadow) dispatch(*stages.intersectShadow, gpu::kStageIntersectShadow);
+  dispatch(stages.accumulate, gpu::kStageAccumulate);
 }
 
-void PathTracer::Impl::submit() {
+void PathTracer::Impl::recordFused() {
+  recordPrepare(gpu::kPrepareFused);
+  const gpu::KernelArgs args = arguments(0);
+  commands.dispatch(kernels->fused.value(), &args, sizeof(args), textures().set(),
+                    (pool->capacity + workgroupSize - 1) / workgroupSize);
+  recordPrepare(gpu::kPrepareAfterFused);
+}
+
+void PathTracer::Impl::submit(Pipeline pipeline) {
   commands.begin();
-  for (uint32_t wave = 0; wave < wavesPerSubmit; ++wave) recordWave();
+  if (pipeline == Pipeline::Fused) {
+    recordFused();
+  } else {
+    for (uint32_t wave = 0; wave < wavesPerSubmit; ++wave) recordWave();
+  }
   commands.copy(pool->wave, pool->readback);
   commands.submitAndWait();
+  const uint64_t raysBefore = last.primaryRays + last.bounceRays + last.shadowRays;
   std::memcpy(&last, pool->readback.mapped(), sizeof(last));
+  PipelineStatistics& done = pipeline == Pipeline::Fused ? totals.fused : totals.wavefront;
+  ++done.submits;
+  done.rays += last.primaryRays + last.bounceRays + last.shadowRays - raysBefore;
+  done.milliseconds += commands.lastSubmitMilliseconds();
+  totals.pipeline = pipeline;
 }
 
 // Work per submit follows the measured times; it never changes the image.
-void PathTracer::Impl::adapt() {
-  const double ratio = execution.submitMilliseconds / std::max(commands.lastSubmitMilliseconds(), 0.1);
-  const double waves = wavesPerSubmit * std::clamp(ratio, 0.25, 2.0);
-  wavesPerSubmit = static_cast<uint32_t>(std::clamp(std::round(waves), 1.0, double{kMaxWavesPerSubmit}));
-  const double longest = commands.lastLongestDispatchMilliseconds();
+void PathTracer::Impl::adapt(Pipeline pipeline) {
+  const bool fused = pipeline == Pipeline::Fused;
   const double limit = std::min(kLongestDispatchMilliseconds, execution.submitMilliseconds);
-  if (longest > limit) {
+  // A submit of the fused kernel is one dispatch.
+  const double wanted = fused ? limit : execution.submitMilliseconds;
+  const double ratio = std::clamp(wanted / std::max(commands.lastSubmitMilliseconds(), 0.1), 0.25, 2.0);
+  const auto scaled = [&](uint32_t count, uint32_t most) {
+    return static_cast<uint32_t>(std::clamp(std::round(count * ratio), 1.0, static_cast<double>(most)));
+  };
+  if (fused) {
+    stepsPerDispatch = scaled(stepsPerDispatch, kMaxStepsPerDispatch);
+  } else {
+    wavesPerSubmit = scaled(wavesPerSubmit, kMaxWavesPerSubmit);
+  }
+  const double longest = commands.lastLongestDispatchMilliseconds();
+  if (longest > limit && !(fused && stepsPerDispatch > 1)) {
     const double smaller = activeLimit * std::max(0.25, limit / longest * 0.8);
     activeLimit = std::max(kFewestActivePaths, static_cast<uint32_t>(smaller));
   } else if (longest < 0.5 * limit && activeLimit < pool->capacity) {
@@ -312,8 +346,9 @@ bool PathTracer::advance() {
   if (impl_->film == nullptr) return false;
   if (!impl_->done()) {
     const auto start = Clock::now();
-    impl_->submit();
-    impl_->adapt();
+    const Pipeline pipeline = impl_->execution.pipeline;
+    impl_->submit(pipeline);
+    impl_->adapt(pipeline);
     impl_->totals.renderSeconds += secondsSince(start);
     if (impl_->totals.firstPixelSeconds == 0) impl_->totals.firstPixelSeconds = secondsSince(impl_->constructed);
   }

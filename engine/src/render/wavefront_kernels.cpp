@@ -7,15 +7,6 @@
 namespace isophote {
 namespace {
 
-// Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
-bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger) {
-  if (settings.maxDepth == 0 && !depthLedger) return false;
-  if (features.has(Feature::kHasPunctualLights)) return true;
-  return settings.lightSampling != LightSampling::BsdfOnly &&
-         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights) ||
-          features.has(Feature::kHasSuns) || features.has(Feature::kHasEnvironment));
-}
-
 // Whether a ray that met no surface can see anything.
 bool shinesBeyondSurfaces(const FeatureSet& features) {
   return features.has(Feature::kHasEnvironment) || features.has(Feature::kHasSuns) ||
@@ -23,6 +14,15 @@ bool shinesBeyondSurfaces(const FeatureSet& features) {
 }
 
 } // namespace
+
+// With BSDF sampling only, just the lights that no direction can find.
+bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger) {
+  if (settings.maxDepth == 0 && !depthLedger) return false;
+  if (features.has(Feature::kHasPunctualLights)) return true;
+  return settings.lightSampling != LightSampling::BsdfOnly &&
+         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights) ||
+          features.has(Feature::kHasSuns) || features.has(Feature::kHasEnvironment));
+}
 
 std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const EstimatorSettings& settings,
                                                uint32_t workgroupSize, const KernelNeeds& needs) {
@@ -49,37 +49,46 @@ std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const
   return constants;
 }
 
-std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
-  std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
-  if (shadeEscaped) kernels.push_back(&*shadeEscaped);
-  if (shadeMedium) kernels.push_back(&*shadeMedium);
-  kernels.push_back(&shadeSurface);
-  if (intersectShadow) kernels.push_back(&*intersectShadow);
-  kernels.push_back(&accumulate);
-  if (findCameraMedia) kernels.push_back(&*findCameraMedia);
+std::vector<const gpu::Kernel*> RenderKernels::all() const {
+  std::vector<const gpu::Kernel*> kernels = {&prepare};
+  const auto add = [&](const std::optional<gpu::Kernel>& kernel) {
+    if (kernel) kernels.push_back(&*kernel);
+  };
+  if (wavefront) {
+    kernels.push_back(&wavefront->regenerate);
+    kernels.push_back(&wavefront->intersectClosest);
+    add(wavefront->shadeEscaped);
+    add(wavefront->shadeMedium);
+    kernels.push_back(&wavefront->shadeSurface);
+    add(wavefront->intersectShadow);
+    kernels.push_back(&wavefront->accumulate);
+  }
+  add(fused);
+  add(findCameraMedia);
   return kernels;
 }
 
-WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
-                                      const EstimatorSettings& settings, uint32_t workgroupSize,
-                                      VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
+RenderKernels makeRenderKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
+                                uint32_t workgroupSize, VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
   const auto constants = kernelConstants(features, settings, workgroupSize, needs);
   const auto make = [&](const char* name) {
     return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
   };
-  WavefrontKernels kernels{.prepare = make("prepare"),
-                           .regenerate = make("regenerate"),
-                           .intersectClosest = make("intersect_closest"),
-                           .shadeEscaped = std::nullopt,
-                           .shadeMedium = std::nullopt,
-                           .shadeSurface = make("shade_surface"),
-                           .intersectShadow = std::nullopt,
-                           .accumulate = make("accumulate"),
-                           .findCameraMedia = std::nullopt};
-  if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
-  if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
-  if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
-  if (samplesLights(features, settings, needs.depthLedger)) kernels.intersectShadow = make("intersect_shadow");
+  const auto makeIf = [&](bool needed, const char* name) { return needed ? std::optional(make(name)) : std::nullopt; };
+  RenderKernels kernels{.prepare = make("prepare"),
+                        .findCameraMedia = makeIf(features.has(Feature::kHasVolumes), "find_camera_media"),
+                        .wavefront = std::nullopt,
+                        .fused = makeIf(needs.fused, "fused")};
+  if (needs.wavefront) {
+    kernels.wavefront = WavefrontKernels{
+        .regenerate = make("regenerate"),
+        .intersectClosest = make("intersect_closest"),
+        .shadeEscaped = makeIf(shinesBeyondSurfaces(features), "shade_escaped"),
+        .shadeMedium = makeIf(features.has(Feature::kHasScatteringMedia), "shade_medium"),
+        .shadeSurface = make("shade_surface"),
+        .intersectShadow = makeIf(samplesLights(features, settings, needs.depthLedger), "intersect_shadow"),
+        .accumulate = make("accumulate")};
+  }
   return kernels;
 }
 

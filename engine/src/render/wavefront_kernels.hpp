@@ -14,23 +14,34 @@ namespace isophote {
 struct KernelNeeds {
   bool depthLedger = false; ///< some paths are followed beyond the depth limit
   bool pixelList = false;   ///< some pixels are sampled, not all
+  bool wavefront = true;    ///< a kernel for each stage
+  bool fused = false;       ///< all stages in one kernel
   bool operator==(const KernelNeeds&) const = default;
 };
 
+/// A kernel for each stage.
 struct WavefrontKernels {
-  gpu::Kernel prepare;
   gpu::Kernel regenerate;
   gpu::Kernel intersectClosest;
-  std::optional<gpu::Kernel> shadeEscaped; ///< with an environment
+  std::optional<gpu::Kernel> shadeEscaped; ///< where something shines beyond surfaces
   std::optional<gpu::Kernel> shadeMedium;  ///< with scattering media
   gpu::Kernel shadeSurface;
   std::optional<gpu::Kernel> intersectShadow; ///< with a light to sample
   gpu::Kernel accumulate;
+};
+
+struct RenderKernels {
+  gpu::Kernel prepare;
   std::optional<gpu::Kernel> findCameraMedia; ///< with volumes; once a render
+  std::optional<WavefrontKernels> wavefront;
+  std::optional<gpu::Kernel> fused;
 
   /// Those that exist, in the order of a wave.
   [[nodiscard]] std::vector<const gpu::Kernel*> all() const;
 };
+
+/// Whether some vertex can sample a light, so that there are shadow rays.
+[[nodiscard]] bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger);
 
 /// What specializes a kernel: workgroup size, features, settings.
 [[nodiscard]] std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features,
@@ -38,8 +49,8 @@ struct WavefrontKernels {
                                                              const KernelNeeds& needs = {});
 
 /// @param textureLayout  of the scene's texture array, null where it has none
-[[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
-                                                    const EstimatorSettings& settings, uint32_t workgroupSize,
-                                                    VkDescriptorSetLayout textureLayout, const KernelNeeds& needs = {});
+[[nodiscard]] RenderKernels makeRenderKernels(const Device& device, const FeatureSet& features,
+                                              const EstimatorSettings& settings, uint32_t workgroupSize,
+                                              VkDescriptorSetLayout textureLayout, const KernelNeeds& needs = {});
 
 } // namespace isophote
