@@ -1,5 +1,5 @@
-// Wavefront and fused kernel side by side on one scene: the same samples by turns, timed by processor time, after a look
-// that the images are equal bit for bit. Prints one line of JSON.
+// Wavefront and fused kernel side by side on one scene: the same samples by turns, timed by processor time, after a
+// look that the images are equal bit for bit. Prints one line of JSON.
 #include <cstring>
 #include <ctime>
 #include <iostream>
@@ -27,7 +27,7 @@ struct Options {
   uint32_t samples = 16;
   uint32_t maxDepth = kUnlimitedDepth;
   uint32_t rounds = 7;
-  uint32_t pool = 0;
+  uint32_t fusedPool = 0; ///< 0: as large as the other's
 };
 
 /// Of all threads: on a machine with other work steadier than the clock.
@@ -41,7 +41,9 @@ struct Contender {
 
   Contender(const Device& device, const GpuScene& scene, const Options& options, Pipeline pipeline)
       : tracer(device, scene, {.maxDepth = options.maxDepth},
-               {.pathPoolSize = options.pool, .pipeline = pipeline, .depthLedger = false}),
+               {.pathPoolSize = pipeline == Pipeline::Fused ? options.fusedPool : 0,
+                .pipeline = pipeline,
+                .depthLedger = false}),
         film(device, {.width = options.width, .height = options.height}) {}
 
   void render(const Camera& camera, SampleRange samples) {
@@ -112,7 +114,7 @@ int main(int argc, char** argv) {
   app.add_option("--spp", options.samples, "of a round");
   app.add_option("--max-depth", options.maxDepth);
   app.add_option("--rounds", options.rounds);
-  app.add_option("--path-pool-size", options.pool);
+  app.add_option("--fused-path-pool-size", options.fusedPool);
   cli::addEnvironmentFlags(app, options.environment);
   CLI11_PARSE(app, argc, argv);
   try {

@@ -65,13 +65,19 @@ void addRays(const RayCounts counts) {
 void main() {
   const uint slot = itemIndex();
   if (slot >= pc.capacity) return;
+  const bool takes = slot < pc.activeLimit;
+  // New paths start together, when half of the lanes are free: rays from the camera stay close to each other
+  // (docs/performance.md). In the first step any lane may, so that every dispatch gets on.
+  const uint enough = (subgroupBallotBitCount(subgroupBallot(takes)) + 1u) / 2u;
   RayState ray = RayRef(pc.rays).items[slot];
   PathState path = PathRef(pc.paths).items[slot];
   RayCounts counts = RayCounts(0u, 0u, 0u);
   for (uint step = 0u; step < pc.steps; ++step) {
     if (path.sampleIndex == kNoSample) {
+      if (!takes) break;
+      if (step > 0u && subgroupBallotBitCount(subgroupBallot(true)) < enough) continue;
       uint item;
-      if (slot >= pc.activeLimit || !takeWork(item)) break;
+      if (!takeWork(item)) break;
       if (!startPath(slot, item, ray, path)) {
         path.sampleIndex = kNoSample;
         continue;

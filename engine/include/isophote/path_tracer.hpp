@@ -55,7 +55,8 @@ struct RenderStatistics {
   uint64_t bytesPerPath = 0;
   uint32_t pathPoolSize = 0;
   uint32_t workgroupSize = 0;
-  Pipeline pipeline = Pipeline::Wavefront; ///< of the last submit
+  Pipeline pipeline = Pipeline::Wavefront; ///< that the next submit uses, Wavefront or Fused
+  bool pipelineIsSettled = false;          ///< asked for, or found faster
   PipelineStatistics wavefront;
   PipelineStatistics fused;
   std::vector<KernelStatistics> kernels; ///< those that exist

@@ -28,7 +28,7 @@ enum class Masking : uint32_t { Correlated, Separable };
 /// both throughout.
 enum class Fresnel : uint32_t { Gltf, Exact, Schlick };
 /// How a path gets from one vertex to the next: a kernel for each stage with queues between them, or all stages in one
-/// kernel; or whichever traces more rays a second, as the first submits tell.
+/// kernel. Auto: on CPU devices whichever traces more rays a second, as a race of the two tells; on others Wavefront.
 enum class Pipeline : uint32_t { Wavefront, Fused, Auto };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
@@ -60,7 +60,9 @@ struct EstimatorSettings {
 struct ExecutionSettings {
   uint32_t pathPoolSize = 0;  ///< 0: chosen for the device
   uint32_t workgroupSize = 0; ///< 0: chosen for the device
-  Pipeline pipeline = Pipeline::Wavefront;
+  Pipeline pipeline = Pipeline::Auto;
+  /// Pipeline::Auto tries the second pipeline once its compilation takes at most this share of the time before it.
+  double compileShare = 0.05;
   bool specialize = true;          ///< false: the all-features kernels
   bool depthLedger = true;         ///< with a maxDepth and a film that asks: follow some paths on, to measure its cost
   double submitMilliseconds = 100; ///< aim for the length of one submit

@@ -11,6 +11,7 @@
 #include "render/camera_media.hpp"
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
+#include "render/pipeline_choice.hpp"
 #include "render/render_view.hpp"
 #include "render/wavefront_kernels.hpp"
 #include "shared/geometry_types.h"
@@ -54,6 +55,8 @@ struct PathTracer::Impl {
   std::optional<RenderKernels> kernels;
   FeatureSet kernelFeatures;
   KernelNeeds kernelNeeds;
+  double compileMilliseconds = 0; ///< of the kernels that the render began with
+  PipelineChoice choice;
   gpu::Buffer pixelList; ///< crop pixels to sample; null: all
   std::optional<PathPool> pool;
   gpu::CommandStream commands;
@@ -72,7 +75,7 @@ struct PathTracer::Impl {
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
       : device(d), scene(s), estimator(e), execution(x),
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
-        tables(d, s.impl().tables, e), sceneView(uploadView()),
+        tables(d, s.impl().tables, e), sceneView(uploadView()), choice(x.pipeline, d.isCpu(), x.compileShare),
         commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
 
   [[nodiscard]] const gpu::TextureArray& textures() const {
@@ -86,6 +89,7 @@ struct PathTracer::Impl {
   void recordPrepare(uint32_t part);
   void recordWave();
   void recordFused();
+  void addKernels(Pipeline pipeline);
   void submit(Pipeline pipeline);
   void adapt(Pipeline pipeline);
   void retire();
@@ -121,9 +125,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   }
   const KernelNeeds needs = {.depthLedger = target.options().depthLedger && execution.depthLedger &&
                                             estimator.maxDepth != kUnlimitedDepth,
-                             .pixelList = pixelList.bytes() != 0,
-                             .wavefront = execution.pipeline != Pipeline::Fused,
-                             .fused = execution.pipeline != Pipeline::Wavefront};
+                             .pixelList = pixelList.bytes() != 0};
   if (kernels && features == kernelFeatures && needs == kernelNeeds) return;
   if (needs.depthLedger != kernelNeeds.depthLedger) pool.reset(); // it holds other state
   kernelNeeds = needs;
@@ -133,8 +135,11 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
     const gpu::TextureUpload upload{.image = &white};
     placeholderTextures = gpu::TextureArray(device, {&upload, 1});
   }
-  kernels = makeRenderKernels(device, features, estimator, workgroupSize, textures().layout(), needs);
+  kernels.emplace(device, features, estimator, workgroupSize, textures().layout(), needs);
   kernelFeatures = features;
+  choice = PipelineChoice(execution.pipeline, device.isCpu(), execution.compileShare);
+  kernels->add(choice.next());
+  compileMilliseconds = secondsSince(start) * 1e3;
   totals.compileSeconds += secondsSince(start);
   if (!pool) {
     const uint32_t paths =
@@ -241,6 +246,12 @@ void PathTracer::Impl::recordFused() {
   recordPrepare(gpu::kPrepareAfterFused);
 }
 
+void PathTracer::Impl::addKernels(Pipeline pipeline) {
+  const auto start = Clock::now();
+  kernels->add(pipeline);
+  totals.compileSeconds += secondsSince(start);
+}
+
 void PathTracer::Impl::submit(Pipeline pipeline) {
   commands.begin();
   if (pipeline == Pipeline::Fused) {
@@ -252,11 +263,13 @@ void PathTracer::Impl::submit(Pipeline pipeline) {
   commands.submitAndWait();
   const uint64_t raysBefore = last.primaryRays + last.bounceRays + last.shadowRays;
   std::memcpy(&last, pool->readback.mapped(), sizeof(last));
+  const uint64_t rays = last.primaryRays + last.bounceRays + last.shadowRays - raysBefore;
   PipelineStatistics& done = pipeline == Pipeline::Fused ? totals.fused : totals.wavefront;
   ++done.submits;
-  done.rays += last.primaryRays + last.bounceRays + last.shadowRays - raysBefore;
+  done.rays += rays;
   done.milliseconds += commands.lastSubmitMilliseconds();
-  totals.pipeline = pipeline;
+  // The end of a render, when no new paths start, tells little.
+  if (accepting && last.nextWork < workEnd) choice.add(rays, commands.lastSubmitMilliseconds(), compileMilliseconds);
 }
 
 // Work per submit follows the measured times; it never changes the image.
@@ -346,7 +359,8 @@ bool PathTracer::advance() {
   if (impl_->film == nullptr) return false;
   if (!impl_->done()) {
     const auto start = Clock::now();
-    const Pipeline pipeline = impl_->execution.pipeline;
+    const Pipeline pipeline = impl_->choice.next();
+    impl_->addKernels(pipeline); // of the rival, where a race begins
     impl_->submit(pipeline);
     impl_->adapt(pipeline);
     impl_->totals.renderSeconds += secondsSince(start);
@@ -396,6 +410,8 @@ RenderStatistics PathTracer::statistics() const {
   statistics.bounceRays += impl_->last.bounceRays;
   statistics.shadowRays += impl_->last.shadowRays;
   statistics.workgroupSize = impl_->workgroupSize;
+  statistics.pipeline = impl_->choice.next();
+  statistics.pipelineIsSettled = impl_->choice.isSettled();
   if (!impl_->kernels) return statistics;
   statistics.queueBytes = impl_->pool->bytes();
   statistics.bytesPerPath = impl_->pool->bytesPerPath();

@@ -68,28 +68,33 @@ std::vector<const gpu::Kernel*> RenderKernels::all() const {
   return kernels;
 }
 
-RenderKernels makeRenderKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
-                                uint32_t workgroupSize, VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
-  const auto constants = kernelConstants(features, settings, workgroupSize, needs);
-  const auto make = [&](const char* name) {
-    return gpu::Kernel(device, isophote_kernels::kernelSource(name), constants, textureLayout, sizeof(gpu::KernelArgs));
-  };
-  const auto makeIf = [&](bool needed, const char* name) { return needed ? std::optional(make(name)) : std::nullopt; };
-  RenderKernels kernels{.prepare = make("prepare"),
-                        .findCameraMedia = makeIf(features.has(Feature::kHasVolumes), "find_camera_media"),
-                        .wavefront = std::nullopt,
-                        .fused = makeIf(needs.fused, "fused")};
-  if (needs.wavefront) {
-    kernels.wavefront = WavefrontKernels{
-        .regenerate = make("regenerate"),
-        .intersectClosest = make("intersect_closest"),
-        .shadeEscaped = makeIf(shinesBeyondSurfaces(features), "shade_escaped"),
-        .shadeMedium = makeIf(features.has(Feature::kHasScatteringMedia), "shade_medium"),
-        .shadeSurface = make("shade_surface"),
-        .intersectShadow = makeIf(samplesLights(features, settings, needs.depthLedger), "intersect_shadow"),
-        .accumulate = make("accumulate")};
+RenderKernels::RenderKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
+                             uint32_t workgroupSize, VkDescriptorSetLayout textureLayout, const KernelNeeds& needs)
+    : device_(&device), features_(features), shadowRays_(samplesLights(features, settings, needs.depthLedger)),
+      constants_(kernelConstants(features, settings, workgroupSize, needs)), textureLayout_(textureLayout) {
+  prepare = make("prepare");
+  findCameraMedia = makeIf(features.has(Feature::kHasVolumes), "find_camera_media");
+}
+
+void RenderKernels::add(Pipeline pipeline) {
+  if (pipeline != Pipeline::Wavefront && !fused) fused = make("fused");
+  if (pipeline != Pipeline::Fused && !wavefront) {
+    wavefront = WavefrontKernels{.regenerate = make("regenerate"),
+                                 .intersectClosest = make("intersect_closest"),
+                                 .shadeEscaped = makeIf(shinesBeyondSurfaces(features_), "shade_escaped"),
+                                 .shadeMedium = makeIf(features_.has(Feature::kHasScatteringMedia), "shade_medium"),
+                                 .shadeSurface = make("shade_surface"),
+                                 .intersectShadow = makeIf(shadowRays_, "intersect_shadow"),
+                                 .accumulate = make("accumulate")};
   }
-  return kernels;
+}
+
+gpu::Kernel RenderKernels::make(const char* name) const {
+  return {*device_, isophote_kernels::kernelSource(name), constants_, textureLayout_, sizeof(gpu::KernelArgs)};
+}
+
+std::optional<gpu::Kernel> RenderKernels::makeIf(bool needed, const char* name) const {
+  return needed ? std::optional(make(name)) : std::nullopt;
 }
 
 } // namespace isophote

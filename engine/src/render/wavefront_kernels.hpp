@@ -14,8 +14,6 @@ namespace isophote {
 struct KernelNeeds {
   bool depthLedger = false; ///< some paths are followed beyond the depth limit
   bool pixelList = false;   ///< some pixels are sampled, not all
-  bool wavefront = true;    ///< a kernel for each stage
-  bool fused = false;       ///< all stages in one kernel
   bool operator==(const KernelNeeds&) const = default;
 };
 
@@ -30,16 +28,6 @@ struct WavefrontKernels {
   gpu::Kernel accumulate;
 };
 
-struct RenderKernels {
-  gpu::Kernel prepare;
-  std::optional<gpu::Kernel> findCameraMedia; ///< with volumes; once a render
-  std::optional<WavefrontKernels> wavefront;
-  std::optional<gpu::Kernel> fused;
-
-  /// Those that exist, in the order of a wave.
-  [[nodiscard]] std::vector<const gpu::Kernel*> all() const;
-};
-
 /// Whether some vertex can sample a light, so that there are shadow rays.
 [[nodiscard]] bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger);
 
@@ -48,9 +36,33 @@ struct RenderKernels {
                                                              const EstimatorSettings& settings, uint32_t workgroupSize,
                                                              const KernelNeeds& needs = {});
 
-/// @param textureLayout  of the scene's texture array, null where it has none
-[[nodiscard]] RenderKernels makeRenderKernels(const Device& device, const FeatureSet& features,
-                                              const EstimatorSettings& settings, uint32_t workgroupSize,
-                                              VkDescriptorSetLayout textureLayout, const KernelNeeds& needs = {});
+/// What both ways of work share, and each way's own kernels once it is asked for. Borrows the Device.
+class RenderKernels {
+public:
+  /// @param textureLayout  of the scene's texture array, null where it has none
+  RenderKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
+                uint32_t workgroupSize, VkDescriptorSetLayout textureLayout, const KernelNeeds& needs = {});
+
+  /// Builds the kernels of this way, unless they are there. Auto: of both.
+  void add(Pipeline pipeline);
+
+  gpu::Kernel prepare;
+  std::optional<gpu::Kernel> findCameraMedia; ///< with volumes; once a render
+  std::optional<WavefrontKernels> wavefront;
+  std::optional<gpu::Kernel> fused;
+
+  /// Those that exist, in the order of a wave.
+  [[nodiscard]] std::vector<const gpu::Kernel*> all() const;
+
+private:
+  [[nodiscard]] gpu::Kernel make(const char* name) const;
+  [[nodiscard]] std::optional<gpu::Kernel> makeIf(bool needed, const char* name) const;
+
+  const Device* device_;
+  FeatureSet features_;
+  bool shadowRays_;
+  std::vector<gpu::SpecConstant> constants_;
+  VkDescriptorSetLayout textureLayout_;
+};
 
 } // namespace isophote
