@@ -67,6 +67,7 @@ struct PathTracer::Impl {
   uint64_t workEnd = 0;
   uint32_t wavesPerSubmit = 1;
   uint32_t stepsPerDispatch = 1; ///< of the fused kernel
+  uint32_t fullSteps = 1;        ///< the same, as it last was while new paths started
   uint32_t activeLimit = 0;
   bool accepting = true;   ///< new samples may start
   gpu::WaveState last{};   ///< at the end of the last submit
@@ -93,10 +94,8 @@ struct PathTracer::Impl {
   void submit(Pipeline pipeline);
   void adapt(Pipeline pipeline);
   void retire();
-  [[nodiscard]] bool done() const {
-    const bool workLeft = accepting && last.nextWork < workEnd;
-    return !workLeft && last.counts[gpu::kQueueFree] == pool->capacity;
-  }
+  [[nodiscard]] bool startsPaths() const { return accepting && last.nextWork < workEnd; }
+  [[nodiscard]] bool done() const { return !startsPaths() && last.counts[gpu::kQueueFree] == pool->capacity; }
   /// Whether the weight of emission that a path finds depends on where light was sampled before.
   [[nodiscard]] bool keepsReceivers() const {
     const FeatureSet& features = scene.features();
@@ -269,7 +268,7 @@ void PathTracer::Impl::submit(Pipeline pipeline) {
   done.rays += rays;
   done.milliseconds += commands.lastSubmitMilliseconds();
   // The end of a render, when no new paths start, tells little.
-  if (accepting && last.nextWork < workEnd) choice.add(rays, commands.lastSubmitMilliseconds(), compileMilliseconds);
+  if (startsPaths()) choice.add(rays, commands.lastSubmitMilliseconds(), compileMilliseconds);
 }
 
 // Work per submit follows the measured times; it never changes the image.
@@ -284,6 +283,7 @@ void PathTracer::Impl::adapt(Pipeline pipeline) {
   };
   if (fused) {
     stepsPerDispatch = scaled(stepsPerDispatch, kMaxStepsPerDispatch);
+    if (startsPaths()) fullSteps = stepsPerDispatch;
   } else {
     wavesPerSubmit = scaled(wavesPerSubmit, kMaxWavesPerSubmit);
   }
@@ -349,6 +349,7 @@ void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   impl_->writeRenderView(camera, range);
   impl_->findCameraMedia();
   impl_->pool->reset(impl_->device, range.begun);
+  impl_->stepsPerDispatch = impl_->fullSteps; // those of the last render's end are too many for a pool at work
   impl_->asked = range;
   impl_->last = {};
   impl_->last.nextWork = range.begun;
