@@ -87,23 +87,12 @@ Job everything() {
 
 TEST(Pipelines, AnEmptySceneIsTheSameByBoth) { expectSameByBoth({.scene = {}, .camera = {}}); }
 
-TEST(Pipelines, TheCornellBoxIsTheSameByBoth) { expectSameByBoth({.scene = cornellBox(), .camera = cornellCamera()}); }
-
 TEST(Pipelines, BlendedLayersAreTheSameByBoth) {
   expectSameByBoth({.scene = alphaLayers(3, 0.4f), .camera = orthographicLookAt({0, 0, 3}, {}, 0.5, 0.5)});
 }
 
-TEST(Pipelines, ASceneWithWorkForEveryStageIsTheSameByBoth) {
-  const Job job = everything();
-  const FeatureSet features = sceneFeatures(job.scene);
-  for (const Feature feature : {Feature::kHasTextures, Feature::kHasEnvironment, Feature::kHasScatteringMedia,
-                                Feature::kHasSphereLights, Feature::kHasLightTree}) {
-    EXPECT_TRUE(features.has(feature)) << static_cast<uint32_t>(feature);
-  }
-  expectSameByBoth(job);
-}
-
-TEST(Pipelines, TheFusedKernelWithAllFeaturesGivesTheBitsOfTheSpecializedOne) {
+// Minutes of compilation.
+TEST(PipelinesSlow, TheFusedKernelWithAllFeaturesGivesTheBitsOfTheSpecializedOne) {
   if (!gpuDevice().isCpu()) GTEST_SKIP() << "bit-identity of specialised kernels is promised for CPU devices only";
   const Job job = everything();
   EXPECT_TRUE(bitIdentical(renderBy(job, {.pipeline = Pipeline::Fused}).image,
@@ -140,6 +129,11 @@ TEST(Pipelines, TheFusedKernelsPoolWorkgroupAndSubmitsChangeNoBit) {
 // Handing over a pool of paths in flight loses none and renders none twice.
 TEST(Pipelines, TakingTurnsChangesNoBit) {
   Job job = everything();
+  const FeatureSet features = sceneFeatures(job.scene);
+  for (const Feature feature : {Feature::kHasTextures, Feature::kHasEnvironment, Feature::kHasScatteringMedia,
+                                Feature::kHasSphereLights, Feature::kHasLightTree}) {
+    EXPECT_TRUE(features.has(feature)) << static_cast<uint32_t>(feature);
+  }
   job.samples = 64;
   const Rendered turns =
       renderBy(job, {.pathPoolSize = 256, .pipeline = Pipeline::Auto, .compileShare = 1e9, .submitMilliseconds = 2});

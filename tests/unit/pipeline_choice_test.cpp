@@ -31,7 +31,7 @@ TEST(PipelineChoice, KeepsWhatWasAskedFor) {
 TEST(PipelineChoice, SettlesOnTheFasterWhicheverItIs) {
   for (const double fused : {900.0, 1100.0}) {
     PipelineChoice choice(Pipeline::Auto, true, 0.05);
-    EXPECT_EQ(choice.next(), Pipeline::Fused);
+    EXPECT_EQ(choice.next(), Pipeline::Wavefront);
     EXPECT_LT(settle(choice, fused, 1000), 1000);
     EXPECT_EQ(choice.next(), fused > 1000 ? Pipeline::Fused : Pipeline::Wavefront);
   }
@@ -40,7 +40,7 @@ TEST(PipelineChoice, SettlesOnTheFasterWhicheverItIs) {
 TEST(PipelineChoice, CompilesTheRivalOnlyWhenThatIsASmallPartOfTheTime) {
   PipelineChoice choice(Pipeline::Auto, true, 0.05);
   int alone = 0;
-  for (; choice.next() == Pipeline::Fused; ++alone) choice.add(1, kSubmit, kCompile);
+  for (; choice.next() == Pipeline::Wavefront; ++alone) choice.add(1, kSubmit, kCompile);
   EXPECT_EQ(alone, 40); // 2 seconds for a tenth
 }
 
@@ -50,7 +50,7 @@ TEST(PipelineChoice, ARaceOfNoTimeEnds) {
   EXPECT_TRUE(choice.isSettled());
 }
 
-TEST(PipelineChoice, OnAGpuAutoIsTheWavefront) {
+TEST(PipelineChoice, WithoutARaceAutoIsTheWavefront) {
   const PipelineChoice choice(Pipeline::Auto, false, 0.05);
   EXPECT_TRUE(choice.isSettled());
   EXPECT_EQ(choice.next(), Pipeline::Wavefront);

@@ -76,7 +76,7 @@ struct PathTracer::Impl {
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
       : device(d), scene(s), estimator(e), execution(x),
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
-        tables(d, s.impl().tables, e), sceneView(uploadView()), choice(x.pipeline, d.isCpu(), x.compileShare),
+        tables(d, s.impl().tables, e), sceneView(uploadView()), choice(newChoice()),
         commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
 
   [[nodiscard]] const gpu::TextureArray& textures() const {
@@ -94,6 +94,10 @@ struct PathTracer::Impl {
   void submit(Pipeline pipeline);
   void adapt(Pipeline pipeline);
   void retire();
+  /// On GPUs the fused kernel was never measured; with every feature it takes llvmpipe minutes to compile.
+  [[nodiscard]] PipelineChoice newChoice() const {
+    return {execution.pipeline, device.isCpu() && execution.specialize, execution.compileShare};
+  }
   [[nodiscard]] bool startsPaths() const { return accepting && last.nextWork < workEnd; }
   [[nodiscard]] bool done() const { return !startsPaths() && last.counts[gpu::kQueueFree] == pool->capacity; }
   /// Whether the weight of emission that a path finds depends on where light was sampled before.
@@ -136,7 +140,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   }
   kernels.emplace(device, features, estimator, workgroupSize, textures().layout(), needs);
   kernelFeatures = features;
-  choice = PipelineChoice(execution.pipeline, device.isCpu(), execution.compileShare);
+  choice = newChoice();
   kernels->add(choice.next());
   compileMilliseconds = secondsSince(start) * 1e3;
   totals.compileSeconds += secondsSince(start);

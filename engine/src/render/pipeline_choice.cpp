@@ -9,9 +9,9 @@ constexpr uint32_t kMeasured = 6;
 
 } // namespace
 
-PipelineChoice::PipelineChoice(Pipeline asked, bool cpu, double compileShare)
-    : next_(asked != Pipeline::Auto ? asked : (cpu ? Pipeline::Fused : Pipeline::Wavefront)),
-      stage_(asked == Pipeline::Auto && cpu ? Stage::Alone : Stage::Settled), compileShare_(compileShare) {}
+PipelineChoice::PipelineChoice(Pipeline asked, bool mayRace, double compileShare)
+    : next_(asked == Pipeline::Fused ? Pipeline::Fused : Pipeline::Wavefront),
+      stage_(asked == Pipeline::Auto && mayRace ? Stage::Alone : Stage::Settled), compileShare_(compileShare) {}
 
 Pipeline PipelineChoice::next() const { return next_; }
 

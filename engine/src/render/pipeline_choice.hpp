@@ -9,20 +9,20 @@
 namespace isophote {
 
 /// Wavefront and fused kernel give the same image, bit for bit, and a submit of one can follow a submit of the other.
-/// So on a CPU device the two race on the render's own samples: the fused kernel, which usually wins there, begins;
+/// So the two can race on the render's own samples: the wavefront, whose kernels never take long to compile, begins;
 /// once it has worked long enough for the compilation of its rival to be a small part of the whole, they take turns;
-/// the one that traced more rays in its time stays. On a GPU, where nothing was measured yet, Auto is the wavefront.
+/// the one that traced more rays in its time stays.
 class PipelineChoice {
 public:
   /// @param asked         Wavefront or Fused: there is nothing to choose
-  /// @param cpu           the device's kind
+  /// @param mayRace       else Auto is the wavefront
   /// @param compileShare  of the time before the race, that the rival's compilation may take
-  PipelineChoice(Pipeline asked, bool cpu, double compileShare);
+  PipelineChoice(Pipeline asked, bool mayRace, double compileShare);
 
   [[nodiscard]] Pipeline next() const;
   [[nodiscard]] bool isSettled() const { return stage_ == Stage::Settled; }
   /// What a submit of next() did.
-  /// @param compileMilliseconds  that the first pipeline's kernels took; the rival's are taken to cost as much
+  /// @param compileMilliseconds  that the wavefront's kernels took; the rival is taken to cost as much
   void add(uint64_t rays, double milliseconds, double compileMilliseconds);
 
 private:
