@@ -27,6 +27,9 @@ enum class Masking : uint32_t { Correlated, Separable };
 /// Reflectance of dielectrics: exact for glass and Schlick's approximation for opaque ones, as glTF has it; or one of
 /// both throughout.
 enum class Fresnel : uint32_t { Gltf, Exact, Schlick };
+/// How a path gets from one vertex to the next: a kernel for each stage with queues between them, or all stages in one
+/// kernel. Auto: on CPU devices whichever traces more rays a second, as a race of the two tells; on others Wavefront.
+enum class Pipeline : uint32_t { Wavefront, Fused, Auto };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
 inline constexpr float kNoClamp = std::numeric_limits<float>::infinity();
@@ -60,8 +63,11 @@ enum class Backend : uint32_t { Compute, RayQuery };
 
 /// How the work is cut; never changes a bit of the image on one device and driver.
 struct ExecutionSettings {
-  uint32_t pathPoolSize = 0;       ///< 0: chosen for the device
-  uint32_t workgroupSize = 0;      ///< 0: chosen for the device
+  uint32_t pathPoolSize = 0;  ///< 0: chosen for the device
+  uint32_t workgroupSize = 0; ///< 0: chosen for the device
+  Pipeline pipeline = Pipeline::Auto;
+  /// Pipeline::Auto tries the second pipeline once its compilation takes at most this share of the time before it.
+  double compileShare = 0.05;
   bool specialize = true;          ///< false: the all-features kernels
   bool depthLedger = true;         ///< with a maxDepth and a film that asks: follow some paths on, to measure its cost
   double submitMilliseconds = 100; ///< aim for the length of one submit

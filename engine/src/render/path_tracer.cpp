@@ -11,6 +11,7 @@
 #include "render/camera_media.hpp"
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
+#include "render/pipeline_choice.hpp"
 #include "render/render_view.hpp"
 #include "render/wavefront_kernels.hpp"
 #include "shared/geometry_types.h"
@@ -32,6 +33,7 @@ constexpr uint32_t kCpuWorkgroup = 64;
 constexpr uint32_t kGpuWorkgroup = 128;
 constexpr uint32_t kMaxWavesPerSubmit = 64;
 constexpr uint32_t kDispatchesPerWave = 12;
+constexpr uint32_t kMaxStepsPerDispatch = 1024;
 // Watchdogs kill long dispatches, and Ctrl-C must be answered: above this the wave gets smaller.
 constexpr double kLongestDispatchMilliseconds = 100;
 constexpr uint32_t kFewestActivePaths = 256;
@@ -50,9 +52,11 @@ struct PathTracer::Impl {
   gpu::Buffer sceneView; ///< the scene's, with the tables
   /// One white texel, bound where an all-features kernel runs on a scene without textures.
   gpu::TextureArray placeholderTextures;
-  std::optional<WavefrontKernels> kernels;
+  std::optional<RenderKernels> kernels;
   FeatureSet kernelFeatures;
   KernelNeeds kernelNeeds;
+  double compileMilliseconds = 0; ///< of the kernels that the render began with
+  PipelineChoice choice;
   gpu::Buffer pixelList; ///< crop pixels to sample; null: all
   std::optional<PathPool> pool;
   gpu::CommandStream commands;
@@ -62,6 +66,8 @@ struct PathTracer::Impl {
   SampleRange left;     ///< of the last one
   uint64_t workEnd = 0;
   uint32_t wavesPerSubmit = 1;
+  uint32_t stepsPerDispatch = 1; ///< of the fused kernel
+  uint32_t fullSteps = 1;        ///< the same, as it last was while new paths started
   uint32_t activeLimit = 0;
   bool accepting = true;   ///< new samples may start
   gpu::WaveState last{};   ///< at the end of the last submit
@@ -70,7 +76,7 @@ struct PathTracer::Impl {
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
       : device(d), scene(s), estimator(e), execution(x),
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
-        tables(d, s.impl().tables, e), sceneView(uploadView()),
+        tables(d, s.impl().tables, e), sceneView(uploadView()), choice(newChoice()),
         commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
 
   [[nodiscard]] const gpu::TextureArray& textures() const {
@@ -83,13 +89,17 @@ struct PathTracer::Impl {
   void dispatch(const gpu::Kernel& kernel, uint32_t stage);
   void recordPrepare(uint32_t part);
   void recordWave();
-  void submit();
-  void adapt();
+  void recordFused();
+  void addKernels(Pipeline pipeline);
+  void submit(Pipeline pipeline);
+  void adapt(Pipeline pipeline);
   void retire();
-  [[nodiscard]] bool done() const {
-    const bool workLeft = accepting && last.nextWork < workEnd;
-    return !workLeft && last.counts[gpu::kQueueFree] == pool->capacity;
+  /// On GPUs the fused kernel was never measured; with every feature it takes llvmpipe minutes to compile.
+  [[nodiscard]] PipelineChoice newChoice() const {
+    return {execution.pipeline, device.isCpu() && execution.specialize, execution.compileShare};
   }
+  [[nodiscard]] bool startsPaths() const { return accepting && last.nextWork < workEnd; }
+  [[nodiscard]] bool done() const { return !startsPaths() && last.counts[gpu::kQueueFree] == pool->capacity; }
   /// Whether the weight of emission that a path finds depends on where light was sampled before.
   [[nodiscard]] bool keepsReceivers() const {
     const FeatureSet& features = scene.features();
@@ -129,18 +139,21 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
     const gpu::TextureUpload upload{.image = &white};
     placeholderTextures = gpu::TextureArray(device, {&upload, 1});
   }
-  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout(), needs);
+  kernels.emplace(device, features, estimator, workgroupSize, textures().layout(), needs);
   kernelFeatures = features;
+  choice = newChoice();
+  kernels->add(choice.next());
+  compileMilliseconds = secondsSince(start) * 1e3;
   totals.compileSeconds += secondsSince(start);
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
     pool.emplace(device, paths,
-                 PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                 PathPoolParts{.shadows = samplesLights(features, estimator, needs.depthLedger),
                                .interiors = features.has(Feature::kHasTransmission),
                                .receivers = keepsReceivers(),
                                .media = features.has(Feature::kHasVolumes),
-                               .scatteringMedia = kernels->shadeMedium.has_value(),
+                               .scatteringMedia = features.has(Feature::kHasScatteringMedia),
                                .straight = features.has(Feature::kHasTransmission) &&
                                            estimator.shadowTransmission == ShadowTransmission::Straight,
                                .beyond = needs.depthLedger});
@@ -196,7 +209,8 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .capacity = pool->capacity,
           .activeLimit = accepting ? activeLimit : 0,
           .prepare = prepare,
-          .workgroupSize = workgroupSize};
+          .workgroupSize = workgroupSize,
+          .steps = stepsPerDispatch};
 }
 
 void PathTracer::Impl::recordPrepare(uint32_t part) {
@@ -211,38 +225,75 @@ void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t stage) {
 }
 
 void PathTracer::Impl::recordWave() {
+  const WavefrontKernels& stages = kernels->wavefront.value();
   recordPrepare(gpu::kPrepareRegenerate);
-  dispatch(kernels->regenerate, gpu::kStageRegenerate);
+  dispatch(stages.regenerate, gpu::kStageRegenerate);
   recordPrepare(gpu::kPrepareIntersect);
-  dispatch(kernels->intersectClosest, gpu::kStageIntersectClosest);
-  if (kernels->shadeMedium) {
+  dispatch(stages.intersectClosest, gpu::kStageIntersectClosest);
+  if (stages.shadeMedium) {
     recordPrepare(gpu::kPrepareMedium);
-    dispatch(*kernels->shadeMedium, gpu::kStageShadeMedium);
+    dispatch(*stages.shadeMedium, gpu::kStageShadeMedium);
   }
   recordPrepare(gpu::kPrepareShade);
-  if (kernels->shadeEscaped) dispatch(*kernels->shadeEscaped, gpu::kStageShadeEscaped);
-  dispatch(kernels->shadeSurface, gpu::kStageShadeSurface);
+  if (stages.shadeEscaped) dispatch(*stages.shadeEscaped, gpu::kStageShadeEscaped);
+  dispatch(stages.shadeSurface, gpu::kStageShadeSurface);
   recordPrepare(gpu::kPrepareShadow);
-  if (kernels->intersectShadow) dispatch(*kernels->intersectShadow, gpu::kStageIntersectShadow);
-  dispatch(kernels->accumulate, gpu::kStageAccumulate);
+  if (stages.intersectShadow) dispatch(*stages.intersectShadow, gpu::kStageIntersectShadow);
+  dispatch(stages.accumulate, gpu::kStageAccumulate);
 }
 
-void PathTracer::Impl::submit() {
+void PathTracer::Impl::recordFused() {
+  recordPrepare(gpu::kPrepareFused);
+  const gpu::KernelArgs args = arguments(0);
+  commands.dispatch(kernels->fused.value(), &args, sizeof(args), textures().set(),
+                    (pool->capacity + workgroupSize - 1) / workgroupSize);
+  recordPrepare(gpu::kPrepareAfterFused);
+}
+
+void PathTracer::Impl::addKernels(Pipeline pipeline) {
+  const auto start = Clock::now();
+  kernels->add(pipeline);
+  totals.compileSeconds += secondsSince(start);
+}
+
+void PathTracer::Impl::submit(Pipeline pipeline) {
   commands.begin();
-  for (uint32_t wave = 0; wave < wavesPerSubmit; ++wave) recordWave();
+  if (pipeline == Pipeline::Fused) {
+    recordFused();
+  } else {
+    for (uint32_t wave = 0; wave < wavesPerSubmit; ++wave) recordWave();
+  }
   commands.copy(pool->wave, pool->readback);
   commands.submitAndWait();
+  const uint64_t raysBefore = last.primaryRays + last.bounceRays + last.shadowRays;
   std::memcpy(&last, pool->readback.mapped(), sizeof(last));
+  const uint64_t rays = last.primaryRays + last.bounceRays + last.shadowRays - raysBefore;
+  PipelineStatistics& done = pipeline == Pipeline::Fused ? totals.fused : totals.wavefront;
+  ++done.submits;
+  done.rays += rays;
+  done.milliseconds += commands.lastSubmitMilliseconds();
+  // The end of a render, when no new paths start, tells little.
+  if (startsPaths()) choice.add(rays, commands.lastSubmitMilliseconds(), compileMilliseconds);
 }
 
 // Work per submit follows the measured times; it never changes the image.
-void PathTracer::Impl::adapt() {
-  const double ratio = execution.submitMilliseconds / std::max(commands.lastSubmitMilliseconds(), 0.1);
-  const double waves = wavesPerSubmit * std::clamp(ratio, 0.25, 2.0);
-  wavesPerSubmit = static_cast<uint32_t>(std::clamp(std::round(waves), 1.0, double{kMaxWavesPerSubmit}));
-  const double longest = commands.lastLongestDispatchMilliseconds();
+void PathTracer::Impl::adapt(Pipeline pipeline) {
+  const bool fused = pipeline == Pipeline::Fused;
   const double limit = std::min(kLongestDispatchMilliseconds, execution.submitMilliseconds);
-  if (longest > limit) {
+  // A submit of the fused kernel is one dispatch.
+  const double wanted = fused ? limit : execution.submitMilliseconds;
+  const double ratio = std::clamp(wanted / std::max(commands.lastSubmitMilliseconds(), 0.1), 0.25, 2.0);
+  const auto scaled = [&](uint32_t count, uint32_t most) {
+    return static_cast<uint32_t>(std::clamp(std::round(count * ratio), 1.0, static_cast<double>(most)));
+  };
+  if (fused) {
+    stepsPerDispatch = scaled(stepsPerDispatch, kMaxStepsPerDispatch);
+    if (startsPaths()) fullSteps = stepsPerDispatch;
+  } else {
+    wavesPerSubmit = scaled(wavesPerSubmit, kMaxWavesPerSubmit);
+  }
+  const double longest = commands.lastLongestDispatchMilliseconds();
+  if (longest > limit && !(fused && stepsPerDispatch > 1)) {
     const double smaller = activeLimit * std::max(0.25, limit / longest * 0.8);
     activeLimit = std::max(kFewestActivePaths, static_cast<uint32_t>(smaller));
   } else if (longest < 0.5 * limit && activeLimit < pool->capacity) {
@@ -303,6 +354,7 @@ void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   impl_->writeRenderView(camera, range);
   impl_->findCameraMedia();
   impl_->pool->reset(impl_->device, range.begun);
+  impl_->stepsPerDispatch = impl_->fullSteps; // those of the last render's end are too many for a pool at work
   impl_->asked = range;
   impl_->last = {};
   impl_->last.nextWork = range.begun;
@@ -313,8 +365,10 @@ bool PathTracer::advance() {
   if (impl_->film == nullptr) return false;
   if (!impl_->done()) {
     const auto start = Clock::now();
-    impl_->submit();
-    impl_->adapt();
+    const Pipeline pipeline = impl_->choice.next();
+    impl_->addKernels(pipeline); // of the rival, where a race begins
+    impl_->submit(pipeline);
+    impl_->adapt(pipeline);
     impl_->totals.renderSeconds += secondsSince(start);
     if (impl_->totals.firstPixelSeconds == 0) impl_->totals.firstPixelSeconds = secondsSince(impl_->constructed);
   }
@@ -362,6 +416,8 @@ RenderStatistics PathTracer::statistics() const {
   statistics.bounceRays += impl_->last.bounceRays;
   statistics.shadowRays += impl_->last.shadowRays;
   statistics.workgroupSize = impl_->workgroupSize;
+  statistics.pipeline = impl_->choice.next();
+  statistics.pipelineIsSettled = impl_->choice.isSettled();
   if (!impl_->kernels) return statistics;
   statistics.queueBytes = impl_->pool->bytes();
   statistics.bytesPerPath = impl_->pool->bytesPerPath();

@@ -1,0 +1,41 @@
+#include "render/pipeline_choice.hpp"
+
+namespace isophote {
+namespace {
+
+// Submits of each that find their length, and then those that count.
+constexpr uint32_t kWarmUp = 4;
+constexpr uint32_t kMeasured = 6;
+
+} // namespace
+
+PipelineChoice::PipelineChoice(Pipeline asked, bool mayRace, double compileShare)
+    : next_(asked == Pipeline::Fused ? Pipeline::Fused : Pipeline::Wavefront),
+      stage_(asked == Pipeline::Auto && mayRace ? Stage::Alone : Stage::Settled), compileShare_(compileShare) {}
+
+Pipeline PipelineChoice::next() const { return next_; }
+
+void PipelineChoice::add(uint64_t rays, double milliseconds, double compileMilliseconds) {
+  const Pipeline other = next_ == Pipeline::Fused ? Pipeline::Wavefront : Pipeline::Fused;
+  if (stage_ == Stage::Alone) {
+    aloneMilliseconds_ += milliseconds;
+    if (aloneMilliseconds_ * compileShare_ < compileMilliseconds) return;
+    stage_ = Stage::Race;
+    next_ = other;
+    return;
+  }
+  if (stage_ == Stage::Settled) return;
+  Run& current = run(next_);
+  if (++current.submits > kWarmUp) {
+    current.rays += static_cast<double>(rays);
+    current.milliseconds += milliseconds;
+  }
+  const Run& rival = run(other);
+  const bool finished = current.submits >= kWarmUp + kMeasured && rival.submits >= kWarmUp + kMeasured;
+  // Nothing is divided: a device may measure no time.
+  const bool rivalIsFaster = rival.rays * current.milliseconds > current.rays * rival.milliseconds;
+  if (!finished || rivalIsFaster) next_ = other;
+  if (finished) stage_ = Stage::Settled;
+}
+
+} // namespace isophote

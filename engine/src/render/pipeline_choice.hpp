@@ -1,0 +1,44 @@
+// Which pipeline the next submit uses, where that is left to measurement.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "isophote/settings.hpp"
+
+namespace isophote {
+
+/// Wavefront and fused kernel give the same image, bit for bit, and a submit of one can follow a submit of the other.
+/// So the two can race on the render's own samples: the wavefront, whose kernels never take long to compile, begins;
+/// once it has worked long enough for the compilation of its rival to be a small part of the whole, they take turns;
+/// the one that traced more rays in its time stays.
+class PipelineChoice {
+public:
+  /// @param asked         Wavefront or Fused: there is nothing to choose
+  /// @param mayRace       else Auto is the wavefront
+  /// @param compileShare  of the time before the race, that the rival's compilation may take
+  PipelineChoice(Pipeline asked, bool mayRace, double compileShare);
+
+  [[nodiscard]] Pipeline next() const;
+  [[nodiscard]] bool isSettled() const { return stage_ == Stage::Settled; }
+  /// What a submit of next() did.
+  /// @param compileMilliseconds  that the wavefront's kernels took; the rival is taken to cost as much
+  void add(uint64_t rays, double milliseconds, double compileMilliseconds);
+
+private:
+  enum class Stage : uint32_t { Alone, Race, Settled };
+  struct Run {
+    uint32_t submits = 0;
+    double rays = 0;
+    double milliseconds = 0;
+  };
+  [[nodiscard]] Run& run(Pipeline pipeline) { return runs_[static_cast<size_t>(pipeline)]; }
+
+  Pipeline next_;
+  Stage stage_;
+  double compileShare_;
+  double aloneMilliseconds_ = 0;
+  std::array<Run, 2> runs_; ///< in the race, by Pipeline
+};
+
+} // namespace isophote
