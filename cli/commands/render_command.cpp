@@ -272,7 +272,8 @@ int runRender(const RenderOptions& options) {
   report.statistics = tracer.statistics();
   report.features = tracer.features();
   report.seconds.compile = report.statistics.compileSeconds;
-  report.seconds.render = report.statistics.renderSeconds;
+  report.seconds.render = report.result.seconds;
+  report.seconds.device = report.statistics.renderSeconds;
 
   watch.lap();
   Image image = film.resolve();

@@ -74,9 +74,9 @@ Image cutOut(const Image& image, const PixelRect& tile, glm::uvec2 origin) {
     }
   };
   for (const Channel& channel : image.channels)
-    copyRows(channel.values, part.channels.emplace_back(channel.name).values);
+    copyRows(channel.values, part.channels.emplace_back(Channel{channel.name, {}}).values);
   for (const IntegerChannel& channel : image.integers)
-    copyRows(channel.values, part.integers.emplace_back(channel.name).values);
+    copyRows(channel.values, part.integers.emplace_back(IntegerChannel{channel.name, {}}).values);
   return part;
 }
 

@@ -179,7 +179,7 @@ Json statusJson(const StatusCounters& status) {
 Json statsJson(const RenderReport& report) {
   const RenderStatistics& render = report.statistics;
   const SceneStatistics& scene = report.sceneStatistics;
-  const double seconds = report.seconds.render;
+  const double seconds = report.seconds.device;
   Json bindings = Json::array();
   if (render.textureBinding) bindings.push_back({{"name", "textures"}, {"set", 0}, {"binding", 0}});
   return {{"schema", 1},
@@ -199,7 +199,8 @@ Json statsJson(const RenderReport& report) {
             {"bvh", report.seconds.bvh},
             {"upload", report.seconds.upload},
             {"compile", report.seconds.compile},
-            {"render", seconds},
+            {"render", report.seconds.render},
+            {"device", seconds},
             {"denoise", report.seconds.denoise},
             {"write", report.seconds.write},
             {"first_pixel", render.firstPixelSeconds}}},

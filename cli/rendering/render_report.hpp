@@ -22,7 +22,8 @@ struct PhaseSeconds {
   double bvh = 0;
   double upload = 0;
   double compile = 0;
-  double render = 0;
+  double render = 0; ///< with looks at the error and checkpoints; of all sessions of a render that was resumed
+  double device = 0; ///< of this session's: waiting for the device
   double denoise = 0;
   double write = 0;
 };

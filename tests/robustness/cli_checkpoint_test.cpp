@@ -6,6 +6,8 @@
 #include <random>
 #include <thread>
 
+#include <nlohmann/json.hpp>
+
 #include "isophote/checkpoint.hpp"
 #include "support/render.hpp"
 #include "unit/cli_fixture.hpp"
@@ -87,7 +89,11 @@ TEST_F(CliCheckpoint, RendersThatWereAskedToStopGoOnAndEndWithTheSameBits) {
 
 TEST_F(CliCheckpoint, MoreSamplesAreAddedToAFinishedRender) {
   ASSERT_EQ(run(command("first.exr", "20", resuming())).exitCode, 0);
-  ASSERT_EQ(run(command("more.exr", "37", resuming())).exitCode, 0);
+  const double before = readCheckpoint(checkpoint()).seconds;
+  const std::vector<std::string> stats = {"--stats", path("stats.json").string()};
+  ASSERT_EQ(run(command("more.exr", "37", resuming(stats))).exitCode, 0);
+  const auto seconds = nlohmann::json::parse(test::readBytes(path("stats.json"))).at("seconds");
+  EXPECT_GT(seconds.at("render"), before + seconds.at("device").get<double>());
   EXPECT_TRUE(test::bitIdentical(readExr(path("more.exr")), renderWhole("37")));
 }
 

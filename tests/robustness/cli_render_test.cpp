@@ -91,9 +91,10 @@ TEST_F(CliRender, WritesStatisticsAndPng) {
   for (const char* key : {"scene", "device", "driver", "features", "mrays_per_s", "error", "figure_of_merit"}) {
     EXPECT_TRUE(stats.contains(key)) << key;
   }
-  for (const char* key : {"load", "bvh", "upload", "compile", "render", "write"}) {
+  for (const char* key : {"load", "bvh", "upload", "compile", "render", "device", "write"}) {
     EXPECT_TRUE(stats.at("seconds").at(key).is_number()) << key;
   }
+  EXPECT_GE(stats.at("seconds").at("render"), stats.at("seconds").at("device"));
   for (const char* key : {"scene_bytes", "bvh_bytes", "queue_bytes", "film_bytes", "bytes_per_path"}) {
     EXPECT_GT(stats.at("memory").at(key), 0) << key;
   }
