@@ -9,6 +9,5 @@ void main() {
   if (!takeSlot(kQueueFinished, itemIndex(), slot)) return;
   const PathState path = PathRef(pc.paths).items[slot];
   if (path.sampleIndex != kNoSample) addSample(slot, path);
-  PathRef(pc.paths).items[slot].sampleIndex = kNoSample;
   pushSlot(kQueueFree, slot);
 }

@@ -1,11 +1,13 @@
 // All stages in one kernel: each invocation takes the path of its slot, and those that follow it, `pc.steps` vertices
 // on. What passes between the stages stays in registers; the queues are filled at the end, so that a wave can go on
-// from here.
+// from here. Before the first dispatch and after a wave it is dispatched with no steps, to mark the slots that are free.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
+#define ISOPHOTE_FUSED 1
 #include "kernels/accumulate.glsl"
+#include "kernels/handover.glsl"
 #include "kernels/intersect_closest.glsl"
 #include "kernels/intersect_shadow.glsl"
 #include "kernels/regenerate.glsl"
@@ -32,18 +34,17 @@ bool takeWork(out uint item) {
 }
 
 // Takes a path to its next vertex and through it, as one wave does. A sample that is finished goes into the film.
-void advancePath(const uint slot, inout RayState ray, inout PathState path, inout RayCounts counts) {
-  HitState hit;
-  ShadowState shadow = noShadowRay();
-  uint next = intersectPath(slot, ray, path, hit);
-  if (kHasScatteringMedia && next == kQueueMedium) next = shadeMedium(slot, hit, ray, path, shadow);
-  if ((kHasEnvironment || kHasSuns || kHasSphereLights) && next == kQueueEscaped) {
-    shadeEscaped(slot, ray, hit.instance, path);
+void advancePath(const uint slot, inout PathState path, inout RayCounts counts) {
+  handedShadow.contribution = vec3(0.0);
+  uint next = intersectPath(slot, path);
+  if (kHasScatteringMedia && next == kQueueMedium) next = shadeMedium(slot, path);
+  if (shinesBeyondSurfaces() && next == kQueueEscaped) {
+    shadeEscaped(slot, path);
     next = kQueueFinished;
   }
-  if (next == kQueueSurface) next = shadeSurface(slot, hit, ray, path, shadow) ? kQueueRay : kQueueFinished;
-  if (kSamplesLights && isSent(shadow)) {
-    path.radiance += arrivingLight(slot, shadow, path);
+  if (next == kQueueSurface) next = shadeSurface(slot, path) ? kQueueRay : kQueueFinished;
+  if (samplesLights() && any(notEqual(handedShadow.contribution, vec3(0.0)))) {
+    path.radiance += arrivingLight(slot, handedShadow, path);
     counts.shadow += 1u;
   }
   if (next == kQueueFinished) {
@@ -63,14 +64,23 @@ void addRays(const RayCounts counts) {
   atomicAdd(wave.state.shadowRays, uint64_t(shadow));
 }
 
+void markFree(const uint item) {
+  uint slot;
+  if (takeSlot(kQueueFree, item, slot)) PathRef(pc.paths).items[slot].sampleIndex = kNoSample;
+}
+
 void main() {
   const uint slot = itemIndex();
+  if (pc.steps == 0u) {
+    markFree(slot);
+    return;
+  }
   if (slot >= pc.capacity) return;
   const bool takes = slot < pc.activeLimit;
   // New paths start together, when half of the lanes are free: rays from the camera stay close to each other
   // (docs/performance.md). In the first step any lane may, so that every dispatch gets on.
   const uint enough = (subgroupBallotBitCount(subgroupBallot(takes)) + 1u) / 2u;
-  RayState ray = RayRef(pc.rays).items[slot];
+  handedRay = RayRef(pc.rays).items[slot];
   PathState path = PathRef(pc.paths).items[slot];
   RayCounts counts = RayCounts(0u, 0u, 0u);
   for (uint step = 0u; step < pc.steps; ++step) {
@@ -79,7 +89,7 @@ void main() {
       if (step > 0u && subgroupBallotBitCount(subgroupBallot(true)) < enough) continue;
       uint item;
       if (!takeWork(item)) break;
-      if (!startPath(slot, item, ray, path)) {
+      if (!startPath(slot, item, path)) {
         path.sampleIndex = kNoSample;
         continue;
       }
@@ -87,9 +97,9 @@ void main() {
     } else {
       counts.bounce += 1u;
     }
-    advancePath(slot, ray, path, counts);
+    advancePath(slot, path, counts);
   }
-  RayRef(pc.rays).items[slot] = ray;
+  RayRef(pc.rays).items[slot] = handedRay;
   PathRef(pc.paths).items[slot] = path;
   if (path.sampleIndex == kNoSample) {
     pushSlot(kQueueFree, slot);

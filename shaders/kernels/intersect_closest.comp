@@ -8,13 +8,10 @@
 void main() {
   uint slot;
   if (!takeSlot(kQueueRay, itemIndex(), slot)) return;
-  HitState hit;
-  const uint next = intersectPath(slot, RayRef(pc.rays).items[slot], PathRef(pc.paths).items[slot], hit);
-  // Whether an escaped ray met a sphere light is asked of its hit.
-  if (kHasSphereLights || hit.instance != kInvalidIndex) HitRef(pc.hits).items[slot] = hit;
-  if (next == kQueueMedium) {
+  const uint next = intersectPath(slot, PathRef(pc.paths).items[slot]);
+  if (kHasScatteringMedia && next == kQueueMedium) {
     pushSlot(kQueueMedium, slot);
-  } else if (next == kQueueEscaped) {
+  } else if (shinesBeyondSurfaces() && next == kQueueEscaped) {
     pushSlot(kQueueEscaped, slot);
   } else if (next == kQueueSurface) {
     pushSlot(kQueueSurface, slot);

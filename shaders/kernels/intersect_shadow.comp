@@ -8,5 +8,6 @@ void main() {
   uint slot;
   if (!takeSlot(kQueueShadow, itemIndex(), slot)) return;
   PathRef paths = PathRef(pc.paths);
-  paths.items[slot].radiance += arrivingLight(slot, ShadowRef(pc.shadows).items[slot], paths.items[slot]);
+  const vec3 arriving = arrivingLight(slot, ShadowRef(pc.shadows).items[slot], paths.items[slot]);
+  if (any(notEqual(arriving, vec3(0.0)))) paths.items[slot].radiance += arriving;
 }

@@ -9,15 +9,13 @@ void main() {
   const uint item = itemIndex();
   if (item >= wave.state.regenerateCount) return;
   const uint slot = queueSlots(kQueueFree).slots[wave.state.counts[kQueueFree] + item];
-  RayState ray;
   PathState path;
-  if (!startPath(slot, item, ray, path)) {
+  if (!startPath(slot, item, path)) {
     // The freed slot waits in the finished queue, because the free queue is being read.
     PathRef(pc.paths).items[slot].sampleIndex = kNoSample;
     pushSlot(kQueueFinished, slot);
     return;
   }
-  RayRef(pc.rays).items[slot] = ray;
   PathRef(pc.paths).items[slot] = path;
   pushSlot(kQueueRay, slot);
 }

@@ -9,8 +9,7 @@ void main() {
   if (!takeSlot(kQueueEscaped, itemIndex(), slot)) return;
   PathRef paths = PathRef(pc.paths);
   PathState path = paths.items[slot];
-  const uint instance = kHasSphereLights ? HitRef(pc.hits).items[slot].instance : kInvalidIndex;
-  shadeEscaped(slot, RayRef(pc.rays).items[slot], instance, path);
+  shadeEscaped(slot, path);
   paths.items[slot].radiance = path.radiance;
   if (kHasSphereLights) paths.items[slot].hit = path.hit;
   pushSlot(kQueueFinished, slot);

@@ -5,6 +5,7 @@
 #include "film/aov.glsl"
 #include "geometry/ray_sphere.glsl"
 #include "kernels/absorption.glsl"
+#include "kernels/handover.glsl"
 #include "kernels/straight_shadow.glsl"
 #include "kernels/wavefront.glsl"
 #include "light/environment.glsl"
@@ -50,9 +51,11 @@ vec3 environmentEmission(const SceneRef scene, const vec3 direction, const uint 
   return path.beta * environmentRadiance(scene, direction) * foundWeight(slot, path.pdfSolidAngle, pdfLight);
 }
 
-/// @param instance  of the sphere light, or kInvalidIndex; read with kHasSphereLights only
-void shadeEscaped(const uint slot, const RayState ray, const uint instance, inout PathState path) {
+/// Adds to a path what it receives from where its ray has gone.
+void shadeEscaped(const uint slot, inout PathState path) {
   SceneRef scene = SceneRef(pc.scene);
+  const RayState ray = rayOf(slot);
+  const uint instance = kHasSphereLights ? hitOf(slot).instance : kInvalidIndex;
   vec3 received = vec3(0.0);
   if (kHasSphereLights && instance != kInvalidIndex) {
     if (kHasVolumes) absorbAlongRay(scene, slot, path);

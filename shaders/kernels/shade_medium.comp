@@ -8,16 +8,12 @@
 void main() {
   uint slot;
   if (!takeSlot(kQueueMedium, itemIndex(), slot)) return;
-  RayState ray = RayRef(pc.rays).items[slot];
   PathState path = PathRef(pc.paths).items[slot];
-  ShadowState shadow = noShadowRay();
-  const uint next = shadeMedium(slot, HitRef(pc.hits).items[slot], ray, path, shadow);
+  const uint next = shadeMedium(slot, path);
   PathRef(pc.paths).items[slot] = path;
-  queueShadowRay(slot, shadow);
   if (next == kQueueRay) {
-    RayRef(pc.rays).items[slot] = ray;
     pushSlot(kQueueRay, slot);
-  } else if (next == kQueueEscaped) {
+  } else if (kHasSphereLights && next == kQueueEscaped) {
     pushSlot(kQueueEscaped, slot);
   } else if (next == kQueueSurface) {
     pushSlot(kQueueSurface, slot);

@@ -4,6 +4,7 @@
 #define ISOPHOTE_KERNELS_SHADE_MEDIUM_GLSL
 
 #include "geometry/surface.glsl"
+#include "kernels/handover.glsl"
 #include "kernels/mis.glsl"
 #include "kernels/shadow_ray.glsl"
 #include "kernels/straight_shadow.glsl"
@@ -19,39 +20,42 @@ const uint kFirstSegmentPair = 1u << 28u;
 // put it on the other one.
 const float kCloseToSurface = 1e-5;
 
-vec3 scatteringPoint(const SceneRef scene, const HitState hit, const RayState ray, const float distance,
+vec3 scatteringPoint(const SceneRef scene, const uint slot, const RayState ray, const float distance,
                      const float hitDistance) {
   const vec3 p = ray.origin + distance * ray.direction;
   const vec3 size = max(abs(ray.origin), abs(p));
   if (hitDistance - distance > kCloseToSurface * max(size.x, max(size.y, size.z))) return p;
+  const HitState hit = hitOf(slot);
   if (kHasSphereLights && hit.triangle == kInvalidIndex) return p;
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, -ray.direction);
   const vec3 limit = offsetRayOrigin(surface.p, surface.pError, surface.ng, -ray.direction);
   return dot(p - limit, surface.ng) < 0.0 ? limit : p;
 }
 
-ShadowState sampleDirectLight(const SceneRef scene, const vec3 p, const vec3 wo, const float g, const SampleKey key,
-                              const uint pair, const uint slot, const vec3 beta) {
+void sampleLightFromMedium(const SceneRef scene, const vec3 p, const vec3 wo, const float g, const SampleKey key,
+                       const uint pair, const uint slot, const vec3 beta) {
   const LightReceiver receiver = LightReceiver(p, vec3(0.0)); // it has no normal
   if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
   const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
-  if (!light.valid || (kLightSampling == 2u && !light.delta)) return noShadowRay();
+  if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const float phase = evalHenyeyGreenstein(wo, light.wi, g);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, phase);
   const vec3 contribution = beta * phase * light.radiance * (weight / light.pdfSolidAngle);
-  if (all(equal(contribution, vec3(0.0)))) return noShadowRay();
+  if (all(equal(contribution, vec3(0.0)))) return;
   keepLightWeight(slot, weight);
   MediaRef(pc.media).items[slot].shadow = MediaRef(pc.media).items[slot].path;
-  return shadowRay(p, light, contribution);
+  sendShadowRay(slot, p, light, contribution);
 }
 
 // Scatters at p; false where the path ends.
 bool scatter(const SceneRef scene, const vec3 p, const vec3 wo, const float g, const uint slot, const SampleKey key,
-             inout RayState ray, inout PathState path, inout ShadowState shadow) {
+             inout PathState path) {
   if (!scattersHere(slot, path)) return false;
   const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
-  if (kSamplesLights) shadow = sampleDirectLight(scene, p, wo, g, key, pair, slot, path.beta);
+  if (samplesLights()) {
+    sampleLightFromMedium(scene, p, wo, g, key, pair, slot, path.beta);
+  }
   const vec3 wi = sampleHenyeyGreenstein(wo, g, sample2d(key, pair + 2u));
   path.depth += 1u;
   path.pdfSolidAngle = evalHenyeyGreenstein(wo, wi, g);
@@ -59,18 +63,19 @@ bool scatter(const SceneRef scene, const vec3 p, const vec3 wo, const float g, c
   if (kHasTransmission) power *= InteriorRef(pc.interiors).items[slot].etaScale;
   if (!survivesRoulette(power, sample2d(key, pair + 3u).y, path)) return false;
   if (kStraightShadows) StraightRef(pc.straight).items[slot].path = kStraightSampled;
-  ray = RayState(p, 0.0, wi, kRayInfinity);
+  handRay(slot, RayState(p, 0.0, wi, kRayInfinity));
   MediaRef(pc.media).items[slot].travelled = 0.0;
   return true;
 }
 
-/// @param ray     in: the ray in the medium; out: the next one, where the path scattered
-/// @param shadow  out: the light sample's, where the path scattered and there is one; else as it was
-/// @return        the queue of the path's next stage
-uint shadeMedium(const uint slot, const HitState hit, inout RayState ray, inout PathState path,
-                 inout ShadowState shadow) {
+/// Takes a path through a scattering medium, up to what its ray has met: the rays that leave where it scatters are
+/// handed over.
+///
+/// @return the queue of the path's next stage
+uint shadeMedium(const uint slot, inout PathState path) {
   SceneRef scene = SceneRef(pc.scene);
   MediaRef media = MediaRef(pc.media);
+  const RayState ray = rayOf(slot);
   const Medium medium = mediumOf(scene, currentMedium(scene, media.items[slot].path));
   const SampleKey key = SampleKey(path.pixel, path.sampleIndex, RenderRef(pc.render).view.seed);
   const uint segment = media.items[slot].segments;
@@ -80,12 +85,15 @@ uint shadeMedium(const uint slot, const HitState hit, inout RayState ray, inout 
   const DistanceSample found =
       sampleDistance(medium, path.beta, hitDistance, sampleBits2d(key, kFirstSegmentPair + segment));
   path.beta *= found.weight;
-  if (!any(greaterThan(path.beta, vec3(0.0)))) return kQueueFinished;
-  if (!found.scattered) return kHasSphereLights && hit.triangle == kInvalidIndex ? kQueueEscaped : kQueueSurface;
-  if (path.depth == 0u) path.hit = 1u;
-  const vec3 p = scatteringPoint(scene, hit, ray, found.distance, hitDistance);
-  return scatter(scene, p, -ray.direction, medium.anisotropy, slot, key, ray, path, shadow) ? kQueueRay
-                                                                                            : kQueueFinished;
+  bool alive = any(greaterThan(path.beta, vec3(0.0)));
+  if (alive && found.scattered) {
+    if (path.depth == 0u) path.hit = 1u;
+    const vec3 p = scatteringPoint(scene, slot, ray, found.distance, hitDistance);
+    alive = scatter(scene, p, -ray.direction, medium.anisotropy, slot, key, path);
+  }
+  if (!alive) return kQueueFinished;
+  if (found.scattered) return kQueueRay;
+  return kHasSphereLights && hitOf(slot).triangle == kInvalidIndex ? kQueueEscaped : kQueueSurface;
 }
 
 #endif

@@ -8,14 +8,10 @@
 void main() {
   uint slot;
   if (!takeSlot(kQueueSurface, itemIndex(), slot)) return;
-  RayState ray = RayRef(pc.rays).items[slot];
   PathState path = PathRef(pc.paths).items[slot];
-  ShadowState shadow = noShadowRay();
-  const bool alive = shadeSurface(slot, HitRef(pc.hits).items[slot], ray, path, shadow);
+  const bool alive = shadeSurface(slot, path);
   PathRef(pc.paths).items[slot] = path;
-  queueShadowRay(slot, shadow);
   if (alive) {
-    RayRef(pc.rays).items[slot] = ray;
     pushSlot(kQueueRay, slot);
   } else {
     pushSlot(kQueueFinished, slot);

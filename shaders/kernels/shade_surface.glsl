@@ -9,6 +9,7 @@
 #include "geometry/ray_offset.glsl"
 #include "geometry/surface.glsl"
 #include "kernels/absorption.glsl"
+#include "kernels/handover.glsl"
 #include "kernels/mis.glsl"
 #include "kernels/shadow_ray.glsl"
 #include "kernels/straight_shadow.glsl"
@@ -23,28 +24,28 @@
 // The pair of random numbers whose first chooses a path's color channel, beyond those of any vertex.
 const uint kChannelPair = (1u << 29) - 1u;
 
-// A light's contribution at the surface, for the visibility test.
-ShadowState sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
-                              const BsdfAtWo at, const Frame frame, const vec3 woLocal, const MediumCrossing crossing,
-                              const LightReceiver receiver, const SampleKey key, const uint pair, const uint slot,
-                              const vec3 beta) {
+// A light's contribution at the surface, put up for the visibility test.
+void sampleDirectLight(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material,
+                       const BsdfAtWo at, const Frame frame, const vec3 woLocal, const MediumCrossing crossing,
+                       const LightReceiver receiver, const SampleKey key, const uint pair, const uint slot,
+                       const vec3 beta) {
   const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
-  if (!light.valid || (kLightSampling == 2u && !light.delta)) return noShadowRay();
+  if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
   const vec3 wiLocal = toLocal(frame, light.wi);
   // Both normals must agree on the side.
-  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasFarSide && wiLocal.z < 0.0)) return noShadowRay();
+  if (wiLocal.z * dot(surface.ng, light.wi) <= 0.0 || (!kHasFarSide && wiLocal.z < 0.0)) return;
   const BsdfValue bsdf = evaluateDirection(scene, material.bsdf, at, woLocal, wiLocal);
   float weight = 1.0;
   if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, bsdf.pdfSolidAngle);
   const bool glass = isGlass(material.bsdf);
-  if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return noShadowRay();
+  if (glass && wiLocal.z < 0.0 && isCountedBehindGlass(slot)) return;
   const vec3 contribution = beta * bsdf.fCos * light.radiance * (weight / light.pdfSolidAngle);
-  if (all(equal(contribution, vec3(0.0)))) return noShadowRay();
+  if (all(equal(contribution, vec3(0.0)))) return;
 
   keepLightWeight(slot, glass ? 0.0 : weight);
   if (kHasVolumes) MediaRef(pc.media).items[slot].shadow = wiLocal.z < 0.0 ? crossing.across : crossing.here;
   const vec3 origin = offsetRayOrigin(surface.p, surface.pError, surface.ng, light.wi);
-  return shadowRay(origin, light, contribution);
+  sendShadowRay(slot, origin, light, contribution);
 }
 
 // Index of the color channel that a path has at dispersive glass. The first one it meets chooses it, and the path goes
@@ -76,8 +77,8 @@ float etaScaleBehind(const uint slot, const float eta) {
 
 // Continues the path by a BSDF sample; false where it ends.
 bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceMaterial material, const BsdfAtWo at,
-                  const Frame frame, const vec3 woLocal, const MediumCrossing crossing, const SampleKey key, const uint pair,
-                  const uint slot, inout RayState ray, inout PathState path) {
+                  const Frame frame, const vec3 woLocal, const MediumCrossing crossing, const SampleKey key,
+                  const uint pair, const uint slot, inout PathState path) {
   const vec2 choice = sample2d(key, pair + 3u);
   const BsdfSample bsdf = sampleDirection(scene, material.bsdf, at, woLocal, choice.x, sample2d(key, pair + 2u));
   if (!bsdf.valid) return false;
@@ -96,7 +97,7 @@ bool continuePath(const SceneRef scene, const SurfaceHit surface, const SurfaceM
     MediaRef(pc.media).items[slot].travelled = 0.0;
     if (bsdf.wiLocal.z < 0.0) MediaRef(pc.media).items[slot].path = crossing.across;
   }
-  ray = RayState(offsetRayOrigin(surface.p, surface.pError, surface.ng, wi), 0.0, wi, kRayInfinity);
+  handRay(slot, RayState(offsetRayOrigin(surface.p, surface.pError, surface.ng, wi), 0.0, wi, kRayInfinity));
   return true;
 }
 
@@ -134,25 +135,26 @@ float etaAt(const SceneRef scene, const SurfaceHit surface, const MediumCrossing
 }
 
 // Sends the path straight on, where the surface is a boundary that does nothing.
-bool passesInvisibly(const SceneRef scene, const SurfaceHit surface, const MediumCrossing crossing, const uint slot,
-                     inout RayState ray) {
+bool passesInvisibly(const SceneRef scene, const SurfaceHit surface, const RayState ray, const MediumCrossing crossing,
+                     const uint slot) {
   if (!isVolumeBoundary(scene, surface.material) || !isInvisible(scene, crossing, surface.material)) return false;
   MediaRef media = MediaRef(pc.media);
   const float hitDistance = media.items[slot].hitDistance;
   media.items[slot].path = crossing.across;
   media.items[slot].travelled += hitDistance;
-  ray = RayState(offsetRayOrigin(surface.p, surface.pError, surface.ng, ray.direction), 0.0, ray.direction,
-                 ray.tMax - hitDistance);
+  handRay(slot, RayState(offsetRayOrigin(surface.p, surface.pError, surface.ng, ray.direction), 0.0, ray.direction,
+                         ray.tMax - hitDistance));
   return true;
 }
 
-/// @param ray     in: the ray that met the surface; out: the next one, where the path goes on
-/// @param shadow  out: the light sample's, where there is one; else as it was
-/// @return        whether the path goes on
-bool shadeSurface(const uint slot, const HitState hit, inout RayState ray, inout PathState path,
-                  inout ShadowState shadow) {
+/// Takes a path through the surface that its ray has met: the rays that leave it are handed over.
+///
+/// @return whether the path goes on
+bool shadeSurface(const uint slot, inout PathState path) {
   SceneRef scene = SceneRef(pc.scene);
   RenderRef render = RenderRef(pc.render);
+  const RayState ray = rayOf(slot);
+  const HitState hit = hitOf(slot);
   const vec3 wo = -ray.direction;
 
   const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, wo);
@@ -160,7 +162,7 @@ bool shadeSurface(const uint slot, const HitState hit, inout RayState ray, inout
   if (kHasVolumes) {
     absorbAlongRay(scene, slot, path);
     crossing = crossSurface(scene, surface, slot);
-    if (passesInvisibly(scene, surface, crossing, slot, ray)) return true;
+    if (passesInvisibly(scene, surface, ray, crossing, slot)) return true;
   }
   const SampleKey key = SampleKey(path.pixel, path.sampleIndex, render.view.seed);
   vec3 kept;
@@ -191,14 +193,13 @@ bool shadeSurface(const uint slot, const HitState hit, inout RayState ray, inout
     if (kHasClearcoat) setClearcoatNormal(material, scene, surface, wo, frame);
     const BsdfAtWo at = bsdfAtWo(scene, material.bsdf, woLocal);
     const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
-    if (kSamplesLights) {
+    if (samplesLights()) {
       // Lights on the far side of what lets light through are sampled too.
       const LightReceiver receiver = LightReceiver(surface.p, transmits(material.bsdf) ? vec3(0.0) : ns);
       if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
-      shadow =
-          sampleDirectLight(scene, surface, material, at, frame, woLocal, crossing, receiver, key, pair, slot, path.beta);
+      sampleDirectLight(scene, surface, material, at, frame, woLocal, crossing, receiver, key, pair, slot, path.beta);
     }
-    alive = continuePath(scene, surface, material, at, frame, woLocal, crossing, key, pair, slot, ray, path);
+    alive = continuePath(scene, surface, material, at, frame, woLocal, crossing, key, pair, slot, path);
   }
   return alive;
 }

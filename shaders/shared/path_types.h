@@ -32,7 +32,7 @@ struct PathState {
   uint hit; // 1: the camera ray met a surface
 };
 
-// PathState.sampleIndex of a slot that holds no sample: it is free, or padding of a border tile.
+// PathState.sampleIndex of a slot that holds no sample: padding of a border tile, or free between dispatches of `fused`.
 ISOPHOTE_CONST uint kNoSample = 0xffffffffu;
 
 struct ShadowState {
@@ -187,7 +187,7 @@ struct KernelArgs {
   uint activeLimit; // paths in flight, 0: no new path starts
   uint prepare;     // kPrepare*
   uint workgroupSize;
-  uint steps;  // vertices that each slot goes on by in a dispatch of `fused`
+  uint steps;  // vertices that each slot goes on by in a dispatch of `fused`; 0: it marks the free slots
   uint unused; // keeps the size a multiple of 8
 };
 

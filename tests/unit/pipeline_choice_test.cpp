@@ -14,7 +14,7 @@ int settle(PipelineChoice& choice, double fusedSpeed, double wavefrontSpeed, int
   int submits = 0;
   for (; submits < limit && !choice.isSettled(); ++submits) {
     const double speed = choice.next() == Pipeline::Fused ? fusedSpeed : wavefrontSpeed;
-    choice.add(static_cast<uint64_t>(speed * kSubmit), kSubmit, kCompile);
+    choice.add(static_cast<uint64_t>(speed * kSubmit), kSubmit);
   }
   return submits;
 }
@@ -23,7 +23,7 @@ TEST(PipelineChoice, KeepsWhatWasAskedFor) {
   for (const Pipeline asked : {Pipeline::Wavefront, Pipeline::Fused}) {
     PipelineChoice choice(asked, true, 0.05);
     EXPECT_TRUE(choice.isSettled());
-    choice.add(0, 1e9, kCompile);
+    choice.add(0, 1e9);
     EXPECT_EQ(choice.next(), asked);
   }
 }
@@ -39,14 +39,16 @@ TEST(PipelineChoice, SettlesOnTheFasterWhicheverItIs) {
 
 TEST(PipelineChoice, CompilesTheRivalOnlyWhenThatIsASmallPartOfTheTime) {
   PipelineChoice choice(Pipeline::Auto, true, 0.05);
+  choice.addCompilation(kCompile / 2);
+  choice.add(1, kCompile / 2); // the first submit compiles
   int alone = 0;
-  for (; choice.next() == Pipeline::Wavefront; ++alone) choice.add(1, kSubmit, kCompile);
+  for (; choice.next() == Pipeline::Wavefront; ++alone) choice.add(1, kSubmit);
   EXPECT_EQ(alone, 40); // 2 seconds for a tenth
 }
 
 TEST(PipelineChoice, ARaceOfNoTimeEnds) {
   PipelineChoice choice(Pipeline::Auto, true, 0);
-  for (int i = 0; i < 100; ++i) choice.add(0, 0, 0);
+  for (int i = 0; i < 100; ++i) choice.add(0, 0);
   EXPECT_TRUE(choice.isSettled());
 }
 

@@ -67,7 +67,7 @@ struct ExecutionSettings {
   uint32_t workgroupSize = 0; ///< 0: chosen for the device
   Pipeline pipeline = Pipeline::Auto;
   /// Pipeline::Auto tries the second pipeline once its compilation takes at most this share of the time before it.
-  double compileShare = 0.05;
+  double compileShare = 0.02;
   bool specialize = true;          ///< false: the all-features kernels
   bool depthLedger = true;         ///< with a maxDepth and a film that asks: follow some paths on, to measure its cost
   double submitMilliseconds = 100; ///< aim for the length of one submit

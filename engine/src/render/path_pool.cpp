@@ -35,8 +35,6 @@ void PathPool::reset(const Device& device, uint64_t firstWork) const {
   std::iota(slots.begin(), slots.end(), 0u);
   gpu::writeBuffer(device, queues, uint64_t{gpu::kQueueFree} * capacity * sizeof(uint32_t),
                    std::as_bytes(std::span(slots)));
-  const std::vector<gpu::PathState> none(capacity, {.sampleIndex = gpu::kNoSample});
-  gpu::writeBuffer(device, paths, 0, std::as_bytes(std::span(none)));
   gpu::WaveState state{};
   state.counts[gpu::kQueueFree] = capacity;
   state.nextWork = firstWork;

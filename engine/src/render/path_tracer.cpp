@@ -12,8 +12,10 @@
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
 #include "render/pipeline_choice.hpp"
+#include "render/record_work.hpp"
 #include "render/render_view.hpp"
 #include "render/wavefront_kernels.hpp"
+#include "render/work_size.hpp"
 #include "shared/geometry_types.h"
 #include "upload/filter_table.hpp"
 #include "upload/gpu_scene.hpp"
@@ -31,12 +33,6 @@ constexpr uint32_t kCpuPathPool = 1u << 15;
 constexpr uint32_t kGpuPathPool = 1u << 20;
 constexpr uint32_t kCpuWorkgroup = 64;
 constexpr uint32_t kGpuWorkgroup = 128;
-constexpr uint32_t kMaxWavesPerSubmit = 64;
-constexpr uint32_t kDispatchesPerWave = 12;
-constexpr uint32_t kMaxStepsPerDispatch = 1024;
-// Watchdogs kill long dispatches, and Ctrl-C must be answered: above this the wave gets smaller.
-constexpr double kLongestDispatchMilliseconds = 100;
-constexpr uint32_t kFewestActivePaths = 256;
 
 } // namespace
 
@@ -55,7 +51,6 @@ struct PathTracer::Impl {
   std::optional<RenderKernels> kernels;
   FeatureSet kernelFeatures;
   KernelNeeds kernelNeeds;
-  double compileMilliseconds = 0; ///< of the kernels that the render began with
   PipelineChoice choice;
   gpu::Buffer pixelList; ///< crop pixels to sample; null: all
   std::optional<PathPool> pool;
@@ -65,19 +60,17 @@ struct PathTracer::Impl {
   SampleRange asked;    ///< of it
   SampleRange left;     ///< of the last one
   uint64_t workEnd = 0;
-  uint32_t wavesPerSubmit = 1;
-  uint32_t stepsPerDispatch = 1; ///< of the fused kernel
-  uint32_t fullSteps = 1;        ///< the same, as it last was while new paths started
-  uint32_t activeLimit = 0;
-  bool accepting = true;   ///< new samples may start
-  gpu::WaveState last{};   ///< at the end of the last submit
-  RenderStatistics totals; ///< of finished renders; `last` holds the current one
+  WorkSize work;
+  std::optional<Pipeline> lastPipeline; ///< of the last submit of this render
+  bool accepting = true;                ///< new samples may start
+  gpu::WaveState last{};                ///< at the end of the last submit
+  RenderStatistics totals;              ///< of finished renders; `last` holds the current one
 
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
       : device(d), scene(s), estimator(e), execution(x),
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
         tables(d, s.impl().tables, e), sceneView(uploadView()), choice(newChoice()),
-        commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
+        commands(d, WorkSize::kMostWaves * kDispatchesPerWave, "paths"), work(x.submitMilliseconds) {}
 
   [[nodiscard]] const gpu::TextureArray& textures() const {
     return placeholderTextures.size() > 0 ? placeholderTextures : scene.impl().textures;
@@ -86,17 +79,12 @@ struct PathTracer::Impl {
   void makeKernels(const Camera& camera, const Film& target);
   void writeRenderView(const Camera& camera, SampleRange range);
   void findCameraMedia();
-  void dispatch(const gpu::Kernel& kernel, uint32_t stage);
-  void recordPrepare(uint32_t part);
-  void recordWave();
-  void recordFused();
   void addKernels(Pipeline pipeline);
   void submit(Pipeline pipeline);
-  void adapt(Pipeline pipeline);
   void retire();
-  /// On GPUs the fused kernel was never measured; with every feature it takes llvmpipe minutes to compile.
+  /// On GPUs the fused kernel was never measured.
   [[nodiscard]] PipelineChoice newChoice() const {
-    return {execution.pipeline, device.isCpu() && execution.specialize, execution.compileShare};
+    return {execution.pipeline, device.isCpu(), execution.compileShare};
   }
   [[nodiscard]] bool startsPaths() const { return accepting && last.nextWork < workEnd; }
   [[nodiscard]] bool done() const { return !startsPaths() && last.counts[gpu::kQueueFree] == pool->capacity; }
@@ -107,7 +95,7 @@ struct PathTracer::Impl {
            (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights)) &&
            estimator.lightSelection == LightSelection::Bvh && estimator.lightSampling != LightSampling::BsdfOnly;
   }
-  [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const;
+  [[nodiscard]] gpu::KernelArgs arguments() const;
 };
 
 gpu::Buffer PathTracer::Impl::uploadView() const {
@@ -133,7 +121,6 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   if (kernels && features == kernelFeatures && needs == kernelNeeds) return;
   if (needs.depthLedger != kernelNeeds.depthLedger) pool.reset(); // it holds other state
   kernelNeeds = needs;
-  const auto start = Clock::now();
   if (features.has(Feature::kHasTextures) && scene.impl().textures.size() == 0) {
     const ImageData white{.name = "placeholder", .width = 1, .height = 1, .pixels = std::vector(4, std::byte{255})};
     const gpu::TextureUpload upload{.image = &white};
@@ -142,9 +129,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   kernels.emplace(device, features, estimator, workgroupSize, textures().layout(), needs);
   kernelFeatures = features;
   choice = newChoice();
-  kernels->add(choice.next());
-  compileMilliseconds = secondsSince(start) * 1e3;
-  totals.compileSeconds += secondsSince(start);
+  addKernels(choice.next());
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
@@ -159,7 +144,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
                                .beyond = needs.depthLedger});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
-    activeLimit = paths;
+    work.setCapacity(paths);
   }
 }
 
@@ -180,7 +165,7 @@ void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) 
 void PathTracer::Impl::findCameraMedia() {
   totals.cameraMedia.clear();
   if (!kernels->findCameraMedia) return;
-  const gpu::KernelArgs args = arguments(0);
+  const gpu::KernelArgs args = arguments();
   commands.begin();
   commands.dispatch(*kernels->findCameraMedia, &args, sizeof(args), textures().set(), 1);
   commands.submitAndWait();
@@ -193,7 +178,7 @@ void PathTracer::Impl::findCameraMedia() {
   }
 }
 
-gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
+gpu::KernelArgs PathTracer::Impl::arguments() const {
   return {.scene = sceneView.address(),
           .render = pool->render.address(),
           .wave = pool->wave.address(),
@@ -207,98 +192,40 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .media = pool->media.address(),
           .straight = pool->straight.address(),
           .capacity = pool->capacity,
-          .activeLimit = accepting ? activeLimit : 0,
-          .prepare = prepare,
-          .workgroupSize = workgroupSize,
-          .steps = stepsPerDispatch};
-}
-
-void PathTracer::Impl::recordPrepare(uint32_t part) {
-  const gpu::KernelArgs args = arguments(part);
-  commands.dispatch(kernels->prepare, &args, sizeof(args), VK_NULL_HANDLE, 1);
-}
-
-void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t stage) {
-  const gpu::KernelArgs args = arguments(0); // `prepare` alone reads that member
-  const uint64_t offset = offsetof(gpu::WaveState, dispatches) + stage * sizeof(gpu::DispatchSize);
-  commands.dispatchIndirect(kernel, &args, sizeof(args), textures().set(), pool->wave, offset);
-}
-
-void PathTracer::Impl::recordWave() {
-  const WavefrontKernels& stages = kernels->wavefront.value();
-  recordPrepare(gpu::kPrepareRegenerate);
-  dispatch(stages.regenerate, gpu::kStageRegenerate);
-  recordPrepare(gpu::kPrepareIntersect);
-  dispatch(stages.intersectClosest, gpu::kStageIntersectClosest);
-  if (stages.shadeMedium) {
-    recordPrepare(gpu::kPrepareMedium);
-    dispatch(*stages.shadeMedium, gpu::kStageShadeMedium);
-  }
-  recordPrepare(gpu::kPrepareShade);
-  if (stages.shadeEscaped) dispatch(*stages.shadeEscaped, gpu::kStageShadeEscaped);
-  dispatch(stages.shadeSurface, gpu::kStageShadeSurface);
-  recordPrepare(gpu::kPrepareShadow);
-  if (stages.intersectShadow) dispatch(*stages.intersectShadow, gpu::kStageIntersectShadow);
-  dispatch(stages.accumulate, gpu::kStageAccumulate);
-}
-
-void PathTracer::Impl::recordFused() {
-  recordPrepare(gpu::kPrepareFused);
-  const gpu::KernelArgs args = arguments(0);
-  commands.dispatch(kernels->fused.value(), &args, sizeof(args), textures().set(),
-                    (pool->capacity + workgroupSize - 1) / workgroupSize);
-  recordPrepare(gpu::kPrepareAfterFused);
+          .activeLimit = accepting ? work.activeLimit() : 0,
+          .workgroupSize = workgroupSize};
 }
 
 void PathTracer::Impl::addKernels(Pipeline pipeline) {
   const auto start = Clock::now();
   kernels->add(pipeline);
-  totals.compileSeconds += secondsSince(start);
+  const double seconds = secondsSince(start);
+  totals.compileSeconds += seconds;
+  choice.addCompilation(seconds * 1e3);
 }
 
 void PathTracer::Impl::submit(Pipeline pipeline) {
   commands.begin();
+  const Recording recording{commands, *kernels, *pool, textures().set(), arguments()};
   if (pipeline == Pipeline::Fused) {
-    recordFused();
+    recordFused(recording, work.steps(), lastPipeline != Pipeline::Fused);
   } else {
-    for (uint32_t wave = 0; wave < wavesPerSubmit; ++wave) recordWave();
+    for (uint32_t wave = 0; wave < work.waves(); ++wave) recordWave(recording);
   }
   commands.copy(pool->wave, pool->readback);
   commands.submitAndWait();
+  lastPipeline = pipeline;
   const uint64_t raysBefore = last.primaryRays + last.bounceRays + last.shadowRays;
   std::memcpy(&last, pool->readback.mapped(), sizeof(last));
   const uint64_t rays = last.primaryRays + last.bounceRays + last.shadowRays - raysBefore;
+  const double milliseconds = commands.lastSubmitMilliseconds();
   PipelineStatistics& done = pipeline == Pipeline::Fused ? totals.fused : totals.wavefront;
   ++done.submits;
   done.rays += rays;
-  done.milliseconds += commands.lastSubmitMilliseconds();
+  done.milliseconds += milliseconds;
+  work.follow(pipeline, milliseconds, commands.lastLongestDispatchMilliseconds(), startsPaths());
   // The end of a render, when no new paths start, tells little.
-  if (startsPaths()) choice.add(rays, commands.lastSubmitMilliseconds(), compileMilliseconds);
-}
-
-// Work per submit follows the measured times; it never changes the image.
-void PathTracer::Impl::adapt(Pipeline pipeline) {
-  const bool fused = pipeline == Pipeline::Fused;
-  const double limit = std::min(kLongestDispatchMilliseconds, execution.submitMilliseconds);
-  // A submit of the fused kernel is one dispatch.
-  const double wanted = fused ? limit : execution.submitMilliseconds;
-  const double ratio = std::clamp(wanted / std::max(commands.lastSubmitMilliseconds(), 0.1), 0.25, 2.0);
-  const auto scaled = [&](uint32_t count, uint32_t most) {
-    return static_cast<uint32_t>(std::clamp(std::round(count * ratio), 1.0, static_cast<double>(most)));
-  };
-  if (fused) {
-    stepsPerDispatch = scaled(stepsPerDispatch, kMaxStepsPerDispatch);
-    if (startsPaths()) fullSteps = stepsPerDispatch;
-  } else {
-    wavesPerSubmit = scaled(wavesPerSubmit, kMaxWavesPerSubmit);
-  }
-  const double longest = commands.lastLongestDispatchMilliseconds();
-  if (longest > limit && !(fused && stepsPerDispatch > 1)) {
-    const double smaller = activeLimit * std::max(0.25, limit / longest * 0.8);
-    activeLimit = std::max(kFewestActivePaths, static_cast<uint32_t>(smaller));
-  } else if (longest < 0.5 * limit && activeLimit < pool->capacity) {
-    activeLimit = std::min(pool->capacity, activeLimit + activeLimit / 4);
-  }
+  if (startsPaths()) choice.add(rays, milliseconds);
 }
 
 // Moves the finished render's counters into the totals.
@@ -354,7 +281,8 @@ void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   impl_->writeRenderView(camera, range);
   impl_->findCameraMedia();
   impl_->pool->reset(impl_->device, range.begun);
-  impl_->stepsPerDispatch = impl_->fullSteps; // those of the last render's end are too many for a pool at work
+  impl_->work.beginRender();
+  impl_->lastPipeline.reset();
   impl_->asked = range;
   impl_->last = {};
   impl_->last.nextWork = range.begun;
@@ -368,7 +296,6 @@ bool PathTracer::advance() {
     const Pipeline pipeline = impl_->choice.next();
     impl_->addKernels(pipeline); // of the rival, where a race begins
     impl_->submit(pipeline);
-    impl_->adapt(pipeline);
     impl_->totals.renderSeconds += secondsSince(start);
     if (impl_->totals.firstPixelSeconds == 0) impl_->totals.firstPixelSeconds = secondsSince(impl_->constructed);
   }

@@ -15,11 +15,12 @@ PipelineChoice::PipelineChoice(Pipeline asked, bool mayRace, double compileShare
 
 Pipeline PipelineChoice::next() const { return next_; }
 
-void PipelineChoice::add(uint64_t rays, double milliseconds, double compileMilliseconds) {
+void PipelineChoice::add(uint64_t rays, double milliseconds) {
   const Pipeline other = next_ == Pipeline::Fused ? Pipeline::Wavefront : Pipeline::Fused;
   if (stage_ == Stage::Alone) {
-    aloneMilliseconds_ += milliseconds;
-    if (aloneMilliseconds_ * compileShare_ < compileMilliseconds) return;
+    (used_ ? aloneMilliseconds_ : compileMilliseconds_) += milliseconds;
+    used_ = true;
+    if (aloneMilliseconds_ * compileShare_ < compileMilliseconds_) return;
     stage_ = Stage::Race;
     next_ = other;
     return;

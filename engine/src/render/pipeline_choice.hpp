@@ -21,9 +21,10 @@ public:
 
   [[nodiscard]] Pipeline next() const;
   [[nodiscard]] bool isSettled() const { return stage_ == Stage::Settled; }
-  /// What a submit of next() did.
-  /// @param compileMilliseconds  that the wavefront's kernels took; the rival is taken to cost as much
-  void add(uint64_t rays, double milliseconds, double compileMilliseconds);
+  /// Making the kernels of next() took so long; the rival's are taken to take as long as the wavefront's.
+  void addCompilation(double milliseconds) { compileMilliseconds_ += milliseconds; }
+  /// What a submit of next() did. The first one counts as compilation: llvmpipe compiles what is used.
+  void add(uint64_t rays, double milliseconds);
 
 private:
   enum class Stage : uint32_t { Alone, Race, Settled };
@@ -37,6 +38,8 @@ private:
   Pipeline next_;
   Stage stage_;
   double compileShare_;
+  bool used_ = false;
+  double compileMilliseconds_ = 0;
   double aloneMilliseconds_ = 0;
   std::array<Run, 2> runs_; ///< in the race, by Pipeline
 };
