@@ -1,6 +1,7 @@
 // All stages in one kernel: each invocation takes the path of its slot, and those that follow it, `pc.steps` vertices
 // on. What passes between the stages stays in registers; the queues are filled at the end, so that a wave can go on
-// from here. Before the first dispatch and after a wave it is dispatched with no steps, to mark the slots that are free.
+// from here. Before the first dispatch and after a wave it is dispatched with no steps, to mark the slots that are
+// free.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require

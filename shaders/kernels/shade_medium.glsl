@@ -33,7 +33,7 @@ vec3 scatteringPoint(const SceneRef scene, const uint slot, const RayState ray, 
 }
 
 void sampleLightFromMedium(const SceneRef scene, const vec3 p, const vec3 wo, const float g, const SampleKey key,
-                       const uint pair, const uint slot, const vec3 beta) {
+                           const uint pair, const uint slot, const vec3 beta) {
   const LightReceiver receiver = LightReceiver(p, vec3(0.0)); // it has no normal
   if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
   const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));

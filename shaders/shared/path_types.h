@@ -32,7 +32,8 @@ struct PathState {
   uint hit; // 1: the camera ray met a surface
 };
 
-// PathState.sampleIndex of a slot that holds no sample: padding of a border tile, or free between dispatches of `fused`.
+// PathState.sampleIndex of a slot that holds no sample: padding of a border tile, or free between dispatches of
+// `fused`.
 ISOPHOTE_CONST uint kNoSample = 0xffffffffu;
 
 struct ShadowState {

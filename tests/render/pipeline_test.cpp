@@ -91,7 +91,7 @@ TEST(Pipelines, BlendedLayersAreTheSameByBoth) {
   expectSameByBoth({.scene = alphaLayers(3, 0.4f), .camera = orthographicLookAt({0, 0, 3}, {}, 0.5, 0.5)});
 }
 
-// Minutes of compilation.
+// Half a minute of compilation.
 TEST(PipelinesSlow, TheFusedKernelWithAllFeaturesGivesTheBitsOfTheSpecializedOne) {
   if (!gpuDevice().isCpu()) GTEST_SKIP() << "bit-identity of specialised kernels is promised for CPU devices only";
   const Job job = everything();
@@ -134,7 +134,7 @@ TEST(Pipelines, TakingTurnsChangesNoBit) {
                                 Feature::kHasSphereLights, Feature::kHasLightTree}) {
     EXPECT_TRUE(features.has(feature)) << static_cast<uint32_t>(feature);
   }
-  job.samples = 64;
+  job.samples = 32;
   const Rendered turns =
       renderBy(job, {.pathPoolSize = 256, .pipeline = Pipeline::Auto, .compileShare = 1e9, .submitMilliseconds = 2});
   if (gpuDevice().isCpu()) {
