@@ -37,6 +37,16 @@ TEST(PipelineChoice, SettlesOnTheFasterWhicheverItIs) {
   }
 }
 
+TEST(PipelineChoice, AFewSubmitsThatWaitedForAnotherProgramDecideNothing) {
+  PipelineChoice choice(Pipeline::Auto, true, 0.05);
+  for (int i = 0; i < 1000 && !choice.isSettled(); ++i) {
+    const bool fused = choice.next() == Pipeline::Fused;
+    const bool waited = fused && i % 10 < 2;
+    choice.add(fused ? 11 : 10, waited ? 20 * kSubmit : kSubmit);
+  }
+  EXPECT_EQ(choice.next(), Pipeline::Fused);
+}
+
 TEST(PipelineChoice, CompilesTheRivalOnlyWhenThatIsASmallPartOfTheTime) {
   PipelineChoice choice(Pipeline::Auto, true, 0.05);
   choice.addCompilation(kCompile / 2);

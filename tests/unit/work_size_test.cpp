@@ -39,6 +39,20 @@ TEST(WorkSize, ALongDispatchOfTheFusedKernelGetsFewerSteps) {
   EXPECT_EQ(work.activeLimit(), 1u << 15);
 }
 
+// The first dispatch may compile.
+TEST(WorkSize, OneLongDispatchOfTheFusedKernelDoesNotKeepItsPoolSmall) {
+  WorkSize work(kWanted);
+  work.setCapacity(1 << 15);
+  work.follow(Pipeline::Fused, 2000, 2000, true);
+  EXPECT_EQ(work.activeLimit(), 1u << 13);
+  for (int i = 0; i < 12; ++i) {
+    const double milliseconds = 20.0 * work.steps() * work.activeLimit() / (1 << 15);
+    work.follow(Pipeline::Fused, milliseconds, milliseconds, true);
+  }
+  EXPECT_EQ(work.activeLimit(), 1u << 15);
+  EXPECT_EQ(work.steps(), 5u);
+}
+
 TEST(WorkSize, TheStepsOfARendersEndDoNotBeginTheNext) {
   WorkSize work(kWanted);
   work.setCapacity(1 << 15);

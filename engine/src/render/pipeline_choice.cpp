@@ -1,11 +1,19 @@
 #include "render/pipeline_choice.hpp"
 
+#include <algorithm>
+
 namespace isophote {
 namespace {
 
 // Submits of each that find their length, and then those that count.
-constexpr uint32_t kWarmUp = 4;
-constexpr uint32_t kMeasured = 6;
+constexpr uint32_t kWarmUp = 8;
+constexpr uint32_t kMeasured = 12;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 } // namespace
 
@@ -27,15 +35,11 @@ void PipelineChoice::add(uint64_t rays, double milliseconds) {
   }
   if (stage_ == Stage::Settled) return;
   Run& current = run(next_);
-  if (++current.submits > kWarmUp) {
-    current.rays += static_cast<double>(rays);
-    current.milliseconds += milliseconds;
-  }
+  // A device may measure no time.
+  if (++current.submits > kWarmUp) current.speeds.push_back(static_cast<double>(rays) / std::max(milliseconds, 1e-3));
   const Run& rival = run(other);
-  const bool finished = current.submits >= kWarmUp + kMeasured && rival.submits >= kWarmUp + kMeasured;
-  // Nothing is divided: a device may measure no time.
-  const bool rivalIsFaster = rival.rays * current.milliseconds > current.rays * rival.milliseconds;
-  if (!finished || rivalIsFaster) next_ = other;
+  const bool finished = current.speeds.size() >= kMeasured && rival.speeds.size() >= kMeasured;
+  if (!finished || median(rival.speeds) > median(current.speeds)) next_ = other;
   if (finished) stage_ = Stage::Settled;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "isophote/settings.hpp"
 
@@ -11,7 +12,7 @@ namespace isophote {
 /// Wavefront and fused kernel give the same image, bit for bit, and a submit of one can follow a submit of the other.
 /// So the two can race on the render's own samples: the wavefront, whose kernels never take long to compile, begins;
 /// once it has worked long enough for the compilation of its rival to be a small part of the whole, they take turns;
-/// the one that traced more rays in its time stays.
+/// the one whose median submit traced more rays in its time stays.
 class PipelineChoice {
 public:
   /// @param asked         Wavefront or Fused: there is nothing to choose
@@ -30,8 +31,7 @@ private:
   enum class Stage : uint32_t { Alone, Race, Settled };
   struct Run {
     uint32_t submits = 0;
-    double rays = 0;
-    double milliseconds = 0;
+    std::vector<double> speeds; ///< rays a millisecond, after those that warm up
   };
   [[nodiscard]] Run& run(Pipeline pipeline) { return runs_[static_cast<size_t>(pipeline)]; }
 

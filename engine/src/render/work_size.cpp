@@ -30,11 +30,12 @@ void WorkSize::follow(Pipeline pipeline, double submitMilliseconds, double longe
   } else {
     waves_ = scaled(waves_, ratio, kMostWaves);
   }
+  // The fused kernel gets fewer steps before it gets fewer paths, and more paths before more steps.
   const bool fewerStepsWillDo = fused && steps_ > 1;
   if (longestDispatchMilliseconds > limit && !fewerStepsWillDo) {
     const double smaller = activeLimit_ * std::max(0.25, limit / longestDispatchMilliseconds * 0.8);
     activeLimit_ = std::max(kFewestActivePaths, static_cast<uint32_t>(smaller));
-  } else if (longestDispatchMilliseconds < 0.5 * limit && activeLimit_ < capacity_) {
+  } else if ((longestDispatchMilliseconds < 0.5 * limit || fewerStepsWillDo) && activeLimit_ < capacity_) {
     activeLimit_ = std::min(capacity_, activeLimit_ + activeLimit_ / 4);
   }
 }
