@@ -19,7 +19,7 @@ def render(scene, *options, image=None):
     """
     stats = _render(scene, options, image)
     settings = {**stats["settings"], "seed": None, "max-depth": stats["settings"]["max-depth"] == "unlimited"}
-    kernels = json.dumps([stats["features"], settings, stats["execution"]["specialize"]])
+    kernels = json.dumps([stats["features"], settings, stats["execution"]["specialize"], stats["execution"]["pipeline"]])
     if kernels in _known_kernels:
         return stats
     _known_kernels.add(kernels)

@@ -19,8 +19,9 @@ public:
   Generation(const Device& device, const GpuScene& scene, const Camera& camera, uint32_t width, uint32_t height)
       : device_(device), scene_(scene), film_(device, {.width = width, .height = height, .aovs = false}),
         pool_(device, paddedPixels(width, height), {.shadows = true, .interiors = true, .receivers = true}),
-        kernels_(makeWavefrontKernels(device, scene.features(), {}, kWorkgroup, scene.impl().textures.layout())),
+        kernels_(device, scene.features(), {}, kWorkgroup, scene.impl().textures.layout()),
         commands_(device, 8, "record") {
+    kernels_.add(Pipeline::Wavefront);
     const std::vector<float> filter = filterTable({});
     gpu::writeBuffer(device, pool_.filterTable, 0, std::as_bytes(std::span(filter)));
     const gpu::RenderView view =
@@ -29,9 +30,9 @@ public:
     pool_.reset(device, 0);
   }
 
-  void start() { run(kernels_.regenerate, gpu::kPrepareRegenerate, gpu::kStageRegenerate); }
-  void intersect() { run(kernels_.intersectClosest, gpu::kPrepareIntersect, gpu::kStageIntersectClosest); }
-  void shade() { run(kernels_.shadeSurface, gpu::kPrepareShade, gpu::kStageShadeSurface); }
+  void start() { run(kernels_.wavefront->regenerate, gpu::kPrepareRegenerate, gpu::kStageRegenerate); }
+  void intersect() { run(kernels_.wavefront->intersectClosest, gpu::kPrepareIntersect, gpu::kStageIntersectClosest); }
+  void shade() { run(kernels_.wavefront->shadeSurface, gpu::kPrepareShade, gpu::kStageShadeSurface); }
 
   [[nodiscard]] RayList rays() const {
     const auto states = read<gpu::RayState>(pool_.rays);
@@ -99,7 +100,7 @@ private:
   const GpuScene& scene_;
   Film film_;
   PathPool pool_;
-  WavefrontKernels kernels_;
+  RenderKernels kernels_;
   gpu::CommandStream commands_;
 };
 

@@ -182,6 +182,11 @@ std::vector<SettingEntry> makeTable() {
               "with a max-depth, follow one in eight paths beyond it to measure what it leaves out",
               SettingKind::Execution},
              execution, &X::depthLedger, onOff),
+      choice({"pipeline", "auto, wavefront, fused", "auto", "auto",
+              "a kernel for each stage, all stages in one, or the faster of the two as measured (on a GPU: the first)",
+              SettingKind::Execution},
+             execution, &X::pipeline,
+             {{"auto", Pipeline::Auto}, {"wavefront", Pipeline::Wavefront}, {"fused", Pipeline::Fused}}),
       choice(
           {"specialize", "on, off", "on", "on", "kernels without what the scene does not use", SettingKind::Execution},
           execution, &X::specialize, onOff),

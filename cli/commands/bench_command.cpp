@@ -199,11 +199,11 @@ int runBench(const BenchOptions& options) {
   const FilmOptions film{.width = kWidth, .height = kHeight, .aovs = false};
   BenchResult result;
   {
-    PathTracer tracer(device, scene, {.maxDepth = 0});
+    PathTracer tracer(device, scene, {.maxDepth = 0}, {.pipeline = Pipeline::Wavefront});
     Film target(device, film);
     result.primary = measure(tracer, view.camera, target, options.seconds / 4);
   }
-  PathTracer tracer(device, scene);
+  PathTracer tracer(device, scene, {}, {.pipeline = Pipeline::Wavefront});
   Film target(device, film);
   result.full = measure(tracer, view.camera, target, options.seconds * 3 / 4);
 

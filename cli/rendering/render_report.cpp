@@ -73,6 +73,20 @@ Json kernelsJson(const RenderStatistics& statistics) {
   return list;
 }
 
+Json pipelineJson(const RenderStatistics& statistics) {
+  const auto work = [](const PipelineStatistics& done) {
+    return Json{
+        {"submits", done.submits},
+        {"rays", done.rays},
+        {"ms", done.milliseconds},
+        {"mrays_per_s", done.milliseconds > 0 ? static_cast<double>(done.rays) / done.milliseconds * 1e-3 : 0.0}};
+  };
+  return {{"in_use", statistics.pipeline == Pipeline::Fused ? "fused" : "wavefront"},
+          {"settled", statistics.pipelineIsSettled},
+          {"wavefront", work(statistics.wavefront)},
+          {"fused", work(statistics.fused)}};
+}
+
 Json buffersJson(const RenderReport& report) {
   Json list = Json::array();
   for (const auto* uses : {&report.sceneStatistics.buffers, &report.statistics.buffers}) {
@@ -175,6 +189,7 @@ Json statsJson(const RenderReport& report) {
           {"driver", report.device.driver},
           {"backend", backendName(scene.backend)},
           {"features", report.features.names()},
+          {"pipeline", pipelineJson(render)},
           {"kernels", kernelsJson(render)},
           {"rays", {{"primary", render.primaryRays}, {"bounce", render.bounceRays}, {"shadow", render.shadowRays}}},
           {"mrays_per_s", seconds > 0 ? totalRays(render) / seconds * 1e-6 : 0.0},

@@ -15,17 +15,22 @@ void emptyNextQueues(const WaveRef wave) {
   wave.state.counts[kQueueShadow] = 0u;
 }
 
-void prepareRegenerate(const WaveRef wave) {
-  RenderRef render = RenderRef(pc.render);
-  const uint freeCount = wave.state.counts[kQueueFree];
-  const uint inFlight = pc.capacity - freeCount;
-  const uint wanted = min(freeCount, pc.activeLimit > inFlight ? pc.activeLimit - inFlight : 0u);
-  const uint64_t left = render.view.workEnd - wave.state.nextWork;
-  const uint count = uint(min(uint64_t(wanted), left));
-  const uint64_t padded = uint64_t(render.view.paddedPixelCount);
+// Which samples the next `count` work items are.
+void setFirstWork(const WaveRef wave, const uint count) {
+  const uint64_t padded = uint64_t(RenderRef(pc.render).view.paddedPixelCount);
   wave.state.regenerateCount = count;
   wave.state.regenerateSample = uint(wave.state.nextWork / padded);
   wave.state.regeneratePixel = uint(wave.state.nextWork % padded);
+}
+
+uint64_t workLeft(const WaveRef wave) { return RenderRef(pc.render).view.workEnd - wave.state.nextWork; }
+
+void prepareRegenerate(const WaveRef wave) {
+  const uint freeCount = wave.state.counts[kQueueFree];
+  const uint inFlight = pc.capacity - freeCount;
+  const uint wanted = min(freeCount, pc.activeLimit > inFlight ? pc.activeLimit - inFlight : 0u);
+  const uint count = uint(min(uint64_t(wanted), workLeft(wave)));
+  setFirstWork(wave, count);
   wave.state.nextWork += uint64_t(count);
   wave.state.counts[kQueueFree] = freeCount - count; // regenerate takes the last `count` entries
   wave.state.dispatches[kStageRegenerate] = groupsFor(count);
@@ -33,6 +38,16 @@ void prepareRegenerate(const WaveRef wave) {
   // The rays already queued continue paths; what regenerate adds to them starts new ones.
   wave.state.bounceRays += uint64_t(wave.state.counts[kQueueRay]);
   wave.state.primaryRays -= uint64_t(wave.state.counts[kQueueRay]);
+}
+
+// More than one dispatch can start; small enough for sums with the number of a pixel in 32 bits.
+const uint kMostFusedWork = 1u << 30u;
+
+void prepareFused(const WaveRef wave) {
+  setFirstWork(wave, uint(min(uint64_t(kMostFusedWork), workLeft(wave))));
+  wave.state.regenerateTaken = 0u;
+  wave.state.counts[kQueueRay] = 0u;
+  wave.state.counts[kQueueFree] = 0u;
 }
 
 void main() {
@@ -62,6 +77,12 @@ void main() {
     wave.state.shadowRays += uint64_t(wave.state.counts[kQueueShadow]);
     wave.state.dispatches[kStageIntersectShadow] = groupsFor(wave.state.counts[kQueueShadow]);
     wave.state.dispatches[kStageAccumulate] = groupsFor(wave.state.counts[kQueueFinished]);
+    break;
+  case kPrepareFused:
+    prepareFused(wave);
+    break;
+  case kPrepareAfterFused:
+    wave.state.nextWork += uint64_t(min(wave.state.regenerateTaken, wave.state.regenerateCount));
     break;
   }
 }

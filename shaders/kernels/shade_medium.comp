@@ -3,100 +3,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "geometry/surface.glsl"
-#include "kernels/mis.glsl"
-#include "kernels/shadow_ray.glsl"
-#include "kernels/straight_shadow.glsl"
-#include "kernels/vertex.glsl"
-#include "medium/henyey_greenstein.glsl"
-#include "medium/medium_stack.glsl"
-#include "sampling/sampler.glsl"
-
-// Pairs of random numbers of the free paths: beyond those of 2^26 vertices.
-const uint kFirstSegmentPair = 1u << 28u;
-
-// A scattering this close to the hit, relative to the coordinates, is moved to the hit's own safe side: rounding might
-// put it on the other one.
-const float kCloseToSurface = 1e-5;
-
-vec3 scatteringPoint(const SceneRef scene, const uint slot, const RayState ray, const float distance,
-                     const float hitDistance) {
-  const vec3 p = ray.origin + distance * ray.direction;
-  const vec3 size = max(abs(ray.origin), abs(p));
-  if (hitDistance - distance > kCloseToSurface * max(size.x, max(size.y, size.z))) return p;
-  const HitState hit = HitRef(pc.hits).items[slot];
-  if (kHasSphereLights && hit.triangle == kInvalidIndex) return p;
-  const SurfaceHit surface = surfaceAt(scene, hit.instance, hit.triangle, hit.barycentrics, -ray.direction);
-  const vec3 limit = offsetRayOrigin(surface.p, surface.pError, surface.ng, -ray.direction);
-  return dot(p - limit, surface.ng) < 0.0 ? limit : p;
-}
-
-void sampleDirectLight(const SceneRef scene, const vec3 p, const vec3 wo, const float g, const SampleKey key,
-                       const uint pair, const uint slot, const vec3 beta) {
-  const LightReceiver receiver = LightReceiver(p, vec3(0.0)); // it has no normal
-  if (keepsReceivers()) ReceiverRef(pc.receivers).items[slot] = receiver;
-  const LightSample light = sampleLight(scene, receiver, sampleBits2d(key, pair + 1u), sample2d(key, pair));
-  if (!light.valid || (kLightSampling == 2u && !light.delta)) return;
-  const float phase = evalHenyeyGreenstein(wo, light.wi, g);
-  float weight = 1.0;
-  if (kLightSampling == 0u && !light.delta) weight = misWeight(light.pdfSolidAngle, phase);
-  const vec3 contribution = beta * phase * light.radiance * (weight / light.pdfSolidAngle);
-  if (all(equal(contribution, vec3(0.0)))) return;
-  keepLightWeight(slot, weight);
-  MediaRef(pc.media).items[slot].shadow = MediaRef(pc.media).items[slot].path;
-  queueShadowRay(slot, p, light, contribution);
-}
-
-// Scatters at p; false where the path ends.
-bool scatter(const SceneRef scene, const vec3 p, const vec3 wo, const float g, const uint slot, const SampleKey key,
-             inout PathState path) {
-  if (!scattersHere(slot, path)) return false;
-  const uint pair = kFirstVertexPair + kVertexPairs * path.depth;
-  if (kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u)) {
-    sampleDirectLight(scene, p, wo, g, key, pair, slot, path.beta);
-  }
-  const vec3 wi = sampleHenyeyGreenstein(wo, g, sample2d(key, pair + 2u));
-  path.depth += 1u;
-  path.pdfSolidAngle = evalHenyeyGreenstein(wo, wi, g);
-  float power = max(path.beta.x, max(path.beta.y, path.beta.z));
-  if (kHasTransmission) power *= InteriorRef(pc.interiors).items[slot].etaScale;
-  if (!survivesRoulette(power, sample2d(key, pair + 3u).y, path)) return false;
-  if (kStraightShadows) StraightRef(pc.straight).items[slot].path = kStraightSampled;
-  RayRef(pc.rays).items[slot] = RayState(p, 0.0, wi, kRayInfinity);
-  MediaRef(pc.media).items[slot].travelled = 0.0;
-  return true;
-}
+#include "kernels/shade_medium.glsl"
 
 void main() {
   uint slot;
   if (!takeSlot(kQueueMedium, itemIndex(), slot)) return;
-  SceneRef scene = SceneRef(pc.scene);
-  MediaRef media = MediaRef(pc.media);
-  const RayState ray = RayRef(pc.rays).items[slot];
   PathState path = PathRef(pc.paths).items[slot];
-  const Medium medium = mediumOf(scene, currentMedium(scene, media.items[slot].path));
-  const SampleKey key = SampleKey(path.pixel, path.sampleIndex, RenderRef(pc.render).view.seed);
-  const uint segment = media.items[slot].segments;
-  media.items[slot].segments = segment + 1u;
-  const float hitDistance = media.items[slot].hitDistance;
-
-  const DistanceSample found =
-      sampleDistance(medium, path.beta, hitDistance, sampleBits2d(key, kFirstSegmentPair + segment));
-  path.beta *= found.weight;
-  bool alive = any(greaterThan(path.beta, vec3(0.0)));
-  if (alive && found.scattered) {
-    if (path.depth == 0u) path.hit = 1u;
-    const vec3 p = scatteringPoint(scene, slot, ray, found.distance, hitDistance);
-    alive = scatter(scene, p, -ray.direction, medium.anisotropy, slot, key, path);
-  }
+  const uint next = shadeMedium(slot, path);
   PathRef(pc.paths).items[slot] = path;
-  if (!alive) {
-    pushSlot(kQueueFinished, slot);
-  } else if (found.scattered) {
+  if (next == kQueueRay) {
     pushSlot(kQueueRay, slot);
-  } else if (kHasSphereLights && HitRef(pc.hits).items[slot].triangle == kInvalidIndex) {
+  } else if (kHasSphereLights && next == kQueueEscaped) {
     pushSlot(kQueueEscaped, slot);
-  } else {
+  } else if (next == kQueueSurface) {
     pushSlot(kQueueSurface, slot);
+  } else {
+    pushSlot(kQueueFinished, slot);
   }
 }

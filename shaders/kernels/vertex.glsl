@@ -19,6 +19,9 @@ const float kRouletteMaxSurvival = 0.999;
 // Lights that a direction can find.
 const bool kHasSizedLights = kHasEmissiveTriangles || kHasSphereLights || kHasSuns || kHasEnvironment;
 
+/// Whether vertices send shadow rays.
+bool samplesLights() { return kHasPunctualLights || (kHasSizedLights && kLightSampling != 2u); }
+
 /// Whether a path scatters at the vertex it has reached: within the depth limit. Some samples, chosen by a hash of
 /// their own, go on beyond it: what they gather there is not for the image but tells what the limit leaves out.
 bool scattersHere(const uint slot, inout PathState path) {

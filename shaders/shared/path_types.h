@@ -32,7 +32,8 @@ struct PathState {
   uint hit; // 1: the camera ray met a surface
 };
 
-// PathState.sampleIndex of a slot that holds no sample: padding of a border tile.
+// PathState.sampleIndex of a slot that holds no sample: padding of a border tile, or free between dispatches of
+// `fused`.
 ISOPHOTE_CONST uint kNoSample = 0xffffffffu;
 
 struct ShadowState {
@@ -109,6 +110,8 @@ ISOPHOTE_CONST uint kPrepareIntersect = 1u;
 ISOPHOTE_CONST uint kPrepareShade = 2u;
 ISOPHOTE_CONST uint kPrepareShadow = 3u;
 ISOPHOTE_CONST uint kPrepareMedium = 4u; // before kPrepareShade
+ISOPHOTE_CONST uint kPrepareFused = 5u;
+ISOPHOTE_CONST uint kPrepareAfterFused = 6u;
 
 ISOPHOTE_CONST uint kStatusQueueOverflow = 0u;
 ISOPHOTE_CONST uint kStatusStackOverflow = 1u;
@@ -134,10 +137,10 @@ struct WaveState {
   DispatchSize dispatches[7]; // kStageCount
   uint counts[7];             // kQueueCount
   uint status[7];             // kStatusCount
-  uint regenerateCount;       // of this wave
-  uint regenerateSample;      // sample index, relative to firstSample, and padded pixel of its first work item
+  uint regenerateCount;       // work items that start in this wave, or may start in this dispatch of `fused`
+  uint regenerateSample;      // sample index, relative to firstSample, and padded pixel of the first of them
   uint regeneratePixel;
-  uint unused;
+  uint regenerateTaken; // by `fused`, of those and beyond (atomic)
 };
 
 // Fixed for one call of render.
@@ -167,7 +170,7 @@ struct RenderView {
   MediumStack cameraMedia;
 };
 
-// The push constant of every wavefront kernel.
+// The push constant of every kernel of a render.
 struct KernelArgs {
   Address scene;  // SceneView
   Address render; // RenderView
@@ -185,6 +188,8 @@ struct KernelArgs {
   uint activeLimit; // paths in flight, 0: no new path starts
   uint prepare;     // kPrepare*
   uint workgroupSize;
+  uint steps;  // vertices that each slot goes on by in a dispatch of `fused`; 0: it marks the free slots
+  uint unused; // keeps the size a multiple of 8
 };
 
 ISOPHOTE_SHARED_END

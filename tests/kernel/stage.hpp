@@ -27,9 +27,10 @@ public:
   Stage(const Scene& scene, uint32_t capacity, const FilmOptions& filmOptions = {.width = 4, .height = 4})
       : gpuScene(gpuDevice(), scene), film(gpuDevice(), filmOptions),
         pool(gpuDevice(), capacity, {.shadows = true, .interiors = true, .media = true, .scatteringMedia = true}),
-        kernels(makeWavefrontKernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE)), rays(capacity),
-        hits(capacity), paths(capacity), shadows(capacity), interiors(capacity, {1, 0}),
+        kernels(gpuDevice(), withoutTextures(), {}, kWorkgroup, VK_NULL_HANDLE), rays(capacity), hits(capacity),
+        paths(capacity), shadows(capacity), interiors(capacity, {1, 0}),
         media(capacity, {kNoMedia, kNoMedia, 0, 0, 0}) {
+    kernels.add(Pipeline::Wavefront);
     for (auto& queue : queues) queue.resize(capacity);
     view.cameraMedia = kNoMedia;
     view.replicates = film.impl().replicates.address();
@@ -67,7 +68,7 @@ public:
   GpuScene gpuScene;
   Film film;
   PathPool pool;
-  WavefrontKernels kernels;
+  RenderKernels kernels;
   gpu::WaveState wave{};
   gpu::RenderView view{};
   uint32_t activeLimit = 0xffffffffu;

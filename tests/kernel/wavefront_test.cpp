@@ -91,7 +91,7 @@ TEST(Regenerate, StartsEachPixelSampleOnceAndParksPadding) {
   std::iota(stage.queues[gpu::kQueueFree].begin(), stage.queues[gpu::kQueueFree].end(), 0u);
   stage.wave.counts[gpu::kQueueFree] = 200 - items;
   stage.wave.regenerateCount = items;
-  stage.run(stage.kernels.regenerate, groupsFor(items));
+  stage.run(stage.kernels.wavefront->regenerate, groupsFor(items));
   ASSERT_EQ(stage.wave.counts[gpu::kQueueRay], 45u);
   ASSERT_EQ(stage.wave.counts[gpu::kQueueFinished], 51u);
   std::set<std::pair<uint32_t, uint32_t>> started;
@@ -121,7 +121,7 @@ TEST(IntersectClosest, SendsHitsToSurfacesAndMissesOutside) {
     const float x = -1.5f + 0.01f * static_cast<float>(i) + 0.003f;
     stage.rays[i] = {{x, 0.25f, 2}, 0, {0, 0, -1}, gpu::kRayInfinity};
   }
-  stage.run(stage.kernels.intersectClosest, groupsFor(300));
+  stage.run(stage.kernels.wavefront->intersectClosest, groupsFor(300));
   EXPECT_EQ(stage.wave.counts[gpu::kQueueSurface] + stage.wave.counts[gpu::kQueueEscaped], 300u);
   EXPECT_EQ(stage.wave.counts[gpu::kQueueSurface], 200u);
   for (uint32_t i = 0; i < stage.wave.counts[gpu::kQueueSurface]; ++i) {
@@ -137,7 +137,7 @@ TEST(IntersectShadow, AddsTheContributionOnlyWhereTheLightIsSeen) {
     stage.shadows[i] = {{0.1f, 0.2f, 1}, 1.0f, {0, 0, blocked ? -2.0f : -0.9f}, 0, {1, 2, 3}};
     stage.paths[i].radiance = {0.5f, 0, 0};
   }
-  stage.run(stage.kernels.intersectShadow.value(), 1);
+  stage.run(stage.kernels.wavefront->intersectShadow.value(), 1);
   for (uint32_t i = 0; i < 64; ++i) {
     EXPECT_EQ(stage.paths[i].radiance.z, i % 3 == 0 ? 0.0f : 3.0f) << i;
     EXPECT_EQ(stage.paths[i].radiance.x, i % 3 == 0 ? 0.5f : 1.5f) << i;
@@ -160,7 +160,7 @@ TEST(Accumulate, FreesSlotsAndCountsWhatItRefuses) {
   stage.paths[5].radiance.x = 1e9f; // beyond 2^26 of the unit emitter scale
   stage.paths[6].sampleIndex = gpu::kNoSample;
   stage.paths[7].hit = 1;
-  stage.run(stage.kernels.accumulate, 1);
+  stage.run(stage.kernels.wavefront->accumulate, 1);
   EXPECT_EQ(stage.wave.counts[gpu::kQueueFree], 8u);
   EXPECT_EQ(stage.wave.status[gpu::kStatusNonFinite], 3u);
   EXPECT_EQ(stage.wave.status[gpu::kStatusNegative], 1u);
@@ -184,7 +184,7 @@ TEST(Accumulate, SumsThatLeaveSixtyThreeBitsAreCounted) {
     stage.paths[i].sampleIndex = 8 * i;        // one replicate
     stage.paths[i].radiance = {1, 0x1p25f, 0}; // 2^61 units of green
   }
-  stage.run(stage.kernels.accumulate, 1);
+  stage.run(stage.kernels.wavefront->accumulate, 1);
   EXPECT_EQ(stage.wave.status[gpu::kStatusClipped], 2u); // the fourth sample and the fifth
 }
 
@@ -201,7 +201,7 @@ TEST(Accumulate, T51ConstantsSurviveAHundredMillionSamples) {
     stage.paths[i].radiance = {0.5f, 0.1f, 1e-9f};
   }
   // The free queue overflows after the first pass: that is counted, and harmless here.
-  stage.run(stage.kernels.accumulate, groupsFor(kSlots), 0, kRepeats);
+  stage.run(stage.kernels.wavefront->accumulate, groupsFor(kSlots), 0, kRepeats);
   double count = 0;
   double red = 0;
   double green = 0;
@@ -225,7 +225,7 @@ TEST(Queues, APushBeyondCapacityIsCountedAndWritesNothing) {
   fillQueue(stage, gpu::kQueueFinished, 64);
   for (auto& path : stage.paths) path.sampleIndex = gpu::kNoSample;
   stage.wave.counts[gpu::kQueueFree] = 40;
-  stage.run(stage.kernels.accumulate, 1);
+  stage.run(stage.kernels.wavefront->accumulate, 1);
   EXPECT_EQ(stage.wave.status[gpu::kStatusQueueOverflow], 40u);
 }
 

@@ -12,10 +12,10 @@ namespace {
 constexpr uint32_t kSide = 24;
 
 Image render(const Device& device, const Scene& scene, const Camera& camera, Backend backend, uint32_t samples,
-             uint64_t seed) {
+             uint64_t seed, Pipeline pipeline = Pipeline::Wavefront) {
   const GpuScene onDevice(device, scene, backend);
   Film film(device, {.width = kSide, .height = kSide});
-  PathTracer tracer(device, onDevice, {.filter = PixelFilter::Box, .seed = seed}, {});
+  PathTracer tracer(device, onDevice, {.filter = PixelFilter::Box, .seed = seed}, {.pipeline = pipeline});
   tracer.render(camera, film, {0, samples});
   test::expectHealthy(tracer.statistics());
   return film.resolve();
@@ -41,6 +41,14 @@ TEST_F(RayQueryImage, OfOneInstanceIsThatOfTheOwnBvhToTheBit) {
   const Image own = render(device(), scene, test::cornellCamera(), Backend::Compute, 16, 1);
   const Image query = render(device(), scene, test::cornellCamera(), Backend::RayQuery, 16, 1);
   EXPECT_LE(differing(own, query), 3u * kSide * kSide / 100);
+}
+
+TEST_F(RayQueryImage, OfTheFusedKernelIsThatOfTheWavefrontToTheBit) {
+  const Scene scene = test::texturedStillLife();
+  const Camera camera = test::texturedStillLifeCamera();
+  const Image wavefront = render(device(), scene, camera, Backend::RayQuery, 8, 1);
+  const Image fused = render(device(), scene, camera, Backend::RayQuery, 8, 1, Pipeline::Fused);
+  EXPECT_TRUE(test::bitIdentical(wavefront, fused));
 }
 
 // Other orders of instances and lights are other random numbers: Welch's tests of independent renders.

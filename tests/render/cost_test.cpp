@@ -15,11 +15,11 @@ namespace {
 // Compilers of other versions emit a little more or less.
 constexpr double kMargin = 1.03;
 
-RenderStatistics costOfCornellBox() {
+RenderStatistics costOfCornellBox(Pipeline pipeline) {
   const Device& device = test::gpuDevice();
   const GpuScene scene(device, test::cornellBox());
   Film film(device, {.width = 32, .height = 32, .aovs = false});
-  PathTracer tracer(device, scene, {.maxDepth = 8, .seed = 1});
+  PathTracer tracer(device, scene, {.maxDepth = 8, .seed = 1}, {.pipeline = pipeline});
   tracer.render(test::cornellCamera(), film, {0, 16});
   test::expectHealthy(tracer.statistics());
   return tracer.statistics();
@@ -27,19 +27,27 @@ RenderStatistics costOfCornellBox() {
 
 TEST(RenderCost, KernelsOfADiffuseSceneAreNoLargerThanRecorded) {
   // A feature that this scene lacks adds no code to it.
-  const std::map<std::string, uint32_t> bytes{
-      {"prepare", 9096},         {"regenerate", 22988},       {"intersect_closest", 62772},
-      {"shade_surface", 138160}, {"intersect_shadow", 64556}, {"accumulate", 14824}};
-  const RenderStatistics cost = costOfCornellBox();
-  EXPECT_EQ(cost.kernels.size(), bytes.size());
-  for (const KernelStatistics& kernel : cost.kernels) {
-    ASSERT_TRUE(bytes.contains(kernel.name)) << kernel.name;
-    EXPECT_LE(kernel.spirvBytes, kMargin * bytes.at(kernel.name)) << kernel.name;
+  using Bytes = std::map<std::string, uint32_t>;
+  const std::map<Pipeline, Bytes> recorded{{Pipeline::Wavefront,
+                                            {{"prepare", 9096},
+                                             {"regenerate", 22988},
+                                             {"intersect_closest", 62772},
+                                             {"shade_surface", 138160},
+                                             {"intersect_shadow", 64556},
+                                             {"accumulate", 14824}}},
+                                           {Pipeline::Fused, {{"prepare", 9096}, {"fused", 138160}}}};
+  for (const auto& [pipeline, bytes] : recorded) {
+    const RenderStatistics cost = costOfCornellBox(pipeline);
+    EXPECT_EQ(cost.kernels.size(), bytes.size());
+    for (const KernelStatistics& kernel : cost.kernels) {
+      ASSERT_TRUE(bytes.contains(kernel.name)) << kernel.name;
+      EXPECT_LE(kernel.spirvBytes, kMargin * bytes.at(kernel.name)) << kernel.name;
+    }
   }
 }
 
 TEST(RenderCost, RaysAndBytesOfAPathAreNoMoreThanRecorded) {
-  const RenderStatistics cost = costOfCornellBox();
+  const RenderStatistics cost = costOfCornellBox(Pipeline::Fused);
   EXPECT_LE(cost.bytesPerPath, 160u);
   EXPECT_EQ(cost.primaryRays, 32u * 32u * 16u);
   const double samples = 32.0 * 32.0 * 16.0;

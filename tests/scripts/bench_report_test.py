@@ -39,7 +39,10 @@ class Report(unittest.TestCase):
             {"measured": "specialization", "scene": "cornell-box", "seconds": {"specialized": 2, "all_features": 3}},
             {"measured": "bvh_build", "build": "fast-trace", "triangles": 3000000, "seconds": 2.5},
             {"measured": "bvh_build", "build": "fast-build", "triangles": 3000000, "seconds": 0.5},
-            {"measured": "whole_image", "scene": "demo", "busy": 0.9, "outside_kernels": 0.1, "seconds": 3},
+            {"measured": "whole_image", "scene": "demo", "pipeline": "wavefront", "in_use": "wavefront", "busy": 0.8,
+             "outside_kernels": 0.1, "seconds": 4},
+            {"measured": "whole_image", "scene": "demo", "pipeline": "auto", "in_use": "fused", "busy": 0.9,
+             "outside_kernels": None, "seconds": 3},
         ]
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "lines.jsonl"
@@ -48,7 +51,8 @@ class Report(unittest.TestCase):
         for end in ("geometric mean | 0.5 [1] | 0.50 |", "of 2 scenes | 0.7 [2] | 2.00 |", "Cycles | 0.8 [1.75] | 0.50 |",
                     "cornell-box | 1.3 | 1.50 (1.50 to 1.50) |", "BVH of 3,000,000 triangles | 3 s | 2.50 s |",
                     "fast build of 3,000,000 triangles | 0.6 s | 0.50 s |",
-                    "least of the scenes | 95% | 90% |", "most of the scenes | 15% [8%] | 10% |"):
+                    "least of the scenes | 95% | 90% |", "most of the scenes, wavefront | 15% [8%] | 10% |",
+                    "| auto: fused | 3.00 | 90% | all in one kernel |"):
             self.assertIn(end, text)
 
     def test_plots_are_xml_with_a_mark_for_each_point(self):

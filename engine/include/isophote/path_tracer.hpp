@@ -1,4 +1,4 @@
-// The wavefront path tracer.
+// The path tracer.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +37,13 @@ struct KernelStatistics {
   uint32_t spirvBytes = 0;
 };
 
+/// What one pipeline has done.
+struct PipelineStatistics {
+  uint64_t submits = 0;
+  uint64_t rays = 0;
+  double milliseconds = 0; ///< on the device
+};
+
 struct RenderStatistics {
   uint64_t primaryRays = 0;
   uint64_t bounceRays = 0;
@@ -48,6 +55,10 @@ struct RenderStatistics {
   uint64_t bytesPerPath = 0;
   uint32_t pathPoolSize = 0;
   uint32_t workgroupSize = 0;
+  Pipeline pipeline = Pipeline::Wavefront; ///< that the next submit uses, Wavefront or Fused
+  bool pipelineIsSettled = false;          ///< asked for, or found faster
+  PipelineStatistics wavefront;
+  PipelineStatistics fused;
   std::vector<KernelStatistics> kernels; ///< those that exist
   std::vector<BufferUse> buffers;
   bool textureBinding = false;          ///< some kernel declares the texture array

@@ -37,6 +37,9 @@ enum class RayOffset : uint32_t { Bound, Fixed };
 enum class Trigonometry : uint32_t { Own, Device };
 /// Textures of materials: filtered as the asset says, or the nearest texel (biased).
 enum class TextureFilter : uint32_t { Asset, Nearest };
+/// How a path gets from one vertex to the next: a kernel for each stage with queues between them, or all stages in one
+/// kernel. Auto: on CPU devices whichever traces more rays a second, as a race of the two tells; on others Wavefront.
+enum class Pipeline : uint32_t { Wavefront, Fused, Auto };
 
 inline constexpr uint32_t kUnlimitedDepth = std::numeric_limits<uint32_t>::max();
 inline constexpr float kNoClamp = std::numeric_limits<float>::infinity();
@@ -78,8 +81,11 @@ enum class BvhBuild : uint32_t { FastTrace, FastBuild };
 
 /// How the work is cut; never changes a bit of the image on one device and driver.
 struct ExecutionSettings {
-  uint32_t pathPoolSize = 0;       ///< 0: chosen for the device
-  uint32_t workgroupSize = 0;      ///< 0: chosen for the device
+  uint32_t pathPoolSize = 0;  ///< 0: chosen for the device
+  uint32_t workgroupSize = 0; ///< 0: chosen for the device
+  Pipeline pipeline = Pipeline::Auto;
+  /// Pipeline::Auto tries the second pipeline once its compilation takes at most this share of the time before it.
+  double compileShare = 0.02;
   bool specialize = true;          ///< false: the all-features kernels
   bool depthLedger = true;         ///< with a maxDepth and a film that asks: follow some paths on, to measure its cost
   double submitMilliseconds = 100; ///< aim for the length of one submit

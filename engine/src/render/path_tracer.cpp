@@ -11,8 +11,11 @@
 #include "render/camera_media.hpp"
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
+#include "render/pipeline_choice.hpp"
+#include "render/record_work.hpp"
 #include "render/render_view.hpp"
 #include "render/wavefront_kernels.hpp"
+#include "render/work_size.hpp"
 #include "shared/geometry_types.h"
 #include "upload/filter_table.hpp"
 #include "upload/gpu_scene.hpp"
@@ -30,11 +33,6 @@ constexpr uint32_t kCpuPathPool = 1u << 15;
 constexpr uint32_t kGpuPathPool = 1u << 20;
 constexpr uint32_t kCpuWorkgroup = 64;
 constexpr uint32_t kGpuWorkgroup = 128;
-constexpr uint32_t kMaxWavesPerSubmit = 64;
-constexpr uint32_t kDispatchesPerWave = 12;
-// Watchdogs kill long dispatches, and Ctrl-C must be answered: above this the wave gets smaller.
-constexpr double kLongestDispatchMilliseconds = 100;
-constexpr uint32_t kFewestActivePaths = 256;
 
 } // namespace
 
@@ -50,9 +48,10 @@ struct PathTracer::Impl {
   gpu::Buffer sceneView; ///< the scene's, with the tables
   /// One white texel, bound where an all-features kernel runs on a scene without textures.
   gpu::TextureArray placeholderTextures;
-  std::optional<WavefrontKernels> kernels;
+  std::optional<RenderKernels> kernels;
   FeatureSet kernelFeatures;
   KernelNeeds kernelNeeds;
+  PipelineChoice choice;
   gpu::Buffer pixelList; ///< crop pixels to sample; null: all
   std::optional<PathPool> pool;
   gpu::CommandStream commands;
@@ -61,17 +60,17 @@ struct PathTracer::Impl {
   SampleRange asked;    ///< of it
   SampleRange left;     ///< of the last one
   uint64_t workEnd = 0;
-  uint32_t wavesPerSubmit = 1;
-  uint32_t activeLimit = 0;
-  bool accepting = true;   ///< new samples may start
-  gpu::WaveState last{};   ///< at the end of the last submit
-  RenderStatistics totals; ///< of finished renders; `last` holds the current one
+  WorkSize work;
+  std::optional<Pipeline> lastPipeline; ///< of the last submit of this render
+  bool accepting = true;                ///< new samples may start
+  gpu::WaveState last{};                ///< at the end of the last submit
+  RenderStatistics totals;              ///< of finished renders; `last` holds the current one
 
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
       : device(d), scene(s), estimator(e), execution(x),
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
-        tables(d, s.impl().tables, e), sceneView(uploadView()),
-        commands(d, kMaxWavesPerSubmit * kDispatchesPerWave, "wavefront") {}
+        tables(d, s.impl().tables, e), sceneView(uploadView()), choice(newChoice()),
+        commands(d, WorkSize::kMostWaves * kDispatchesPerWave, "paths"), work(x.submitMilliseconds) {}
 
   [[nodiscard]] const gpu::TextureArray& textures() const {
     return placeholderTextures.size() > 0 ? placeholderTextures : scene.impl().textures;
@@ -80,16 +79,15 @@ struct PathTracer::Impl {
   void makeKernels(const Camera& camera, const Film& target);
   void writeRenderView(const Camera& camera, SampleRange range);
   void findCameraMedia();
-  void dispatch(const gpu::Kernel& kernel, uint32_t stage);
-  void recordPrepare(uint32_t part);
-  void recordWave();
-  void submit();
-  void adapt();
+  void addKernels(Pipeline pipeline);
+  void submit(Pipeline pipeline);
   void retire();
-  [[nodiscard]] bool done() const {
-    const bool workLeft = accepting && last.nextWork < workEnd;
-    return !workLeft && last.counts[gpu::kQueueFree] == pool->capacity;
+  /// On GPUs the fused kernel was never measured.
+  [[nodiscard]] PipelineChoice newChoice() const {
+    return {execution.pipeline, device.isCpu(), execution.compileShare};
   }
+  [[nodiscard]] bool startsPaths() const { return accepting && last.nextWork < workEnd; }
+  [[nodiscard]] bool done() const { return !startsPaths() && last.counts[gpu::kQueueFree] == pool->capacity; }
   /// Whether the weight of emission that a path finds depends on where light was sampled before.
   [[nodiscard]] bool keepsReceivers() const {
     const FeatureSet& features = scene.features();
@@ -97,7 +95,7 @@ struct PathTracer::Impl {
            (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights)) &&
            estimator.lightSelection == LightSelection::Bvh && estimator.lightSampling != LightSampling::BsdfOnly;
   }
-  [[nodiscard]] gpu::KernelArgs arguments(uint32_t prepare) const;
+  [[nodiscard]] gpu::KernelArgs arguments() const;
 };
 
 gpu::Buffer PathTracer::Impl::uploadView() const {
@@ -123,30 +121,30 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   if (kernels && features == kernelFeatures && needs == kernelNeeds) return;
   if (needs.depthLedger != kernelNeeds.depthLedger) pool.reset(); // it holds other state
   kernelNeeds = needs;
-  const auto start = Clock::now();
   if (features.has(Feature::kHasTextures) && scene.impl().textures.size() == 0) {
     const ImageData white{.name = "placeholder", .width = 1, .height = 1, .pixels = std::vector(4, std::byte{255})};
     const gpu::TextureUpload upload{.image = &white};
     placeholderTextures = gpu::TextureArray(device, {&upload, 1});
   }
-  kernels = makeWavefrontKernels(device, features, estimator, workgroupSize, textures().layout(), needs);
+  kernels.emplace(device, features, estimator, workgroupSize, textures().layout(), needs);
   kernelFeatures = features;
-  totals.compileSeconds += secondsSince(start);
+  choice = newChoice();
+  addKernels(choice.next());
   if (!pool) {
     const uint32_t paths =
         execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
     pool.emplace(device, paths,
-                 PathPoolParts{.shadows = kernels->intersectShadow.has_value(),
+                 PathPoolParts{.shadows = samplesLights(features, estimator, needs.depthLedger),
                                .interiors = features.has(Feature::kHasTransmission),
                                .receivers = keepsReceivers(),
                                .media = features.has(Feature::kHasVolumes),
-                               .scatteringMedia = kernels->shadeMedium.has_value(),
+                               .scatteringMedia = features.has(Feature::kHasScatteringMedia),
                                .straight = features.has(Feature::kHasTransmission) &&
                                            estimator.shadowTransmission == ShadowTransmission::Straight,
                                .beyond = needs.depthLedger});
     const std::vector<float> filter = filterTable(estimator.filter);
     gpu::writeBuffer(device, pool->filterTable, 0, std::as_bytes(std::span(filter)));
-    activeLimit = paths;
+    work.setCapacity(paths);
   }
 }
 
@@ -167,7 +165,7 @@ void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) 
 void PathTracer::Impl::findCameraMedia() {
   totals.cameraMedia.clear();
   if (!kernels->findCameraMedia) return;
-  const gpu::KernelArgs args = arguments(0);
+  const gpu::KernelArgs args = arguments();
   commands.begin();
   commands.dispatch(*kernels->findCameraMedia, &args, sizeof(args), textures().set(), 1);
   commands.submitAndWait();
@@ -180,7 +178,7 @@ void PathTracer::Impl::findCameraMedia() {
   }
 }
 
-gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
+gpu::KernelArgs PathTracer::Impl::arguments() const {
   return {.scene = sceneView.address(),
           .render = pool->render.address(),
           .wave = pool->wave.address(),
@@ -194,60 +192,40 @@ gpu::KernelArgs PathTracer::Impl::arguments(uint32_t prepare) const {
           .media = pool->media.address(),
           .straight = pool->straight.address(),
           .capacity = pool->capacity,
-          .activeLimit = accepting ? activeLimit : 0,
-          .prepare = prepare,
+          .activeLimit = accepting ? work.activeLimit() : 0,
           .workgroupSize = workgroupSize};
 }
 
-void PathTracer::Impl::recordPrepare(uint32_t part) {
-  const gpu::KernelArgs args = arguments(part);
-  commands.dispatch(kernels->prepare, &args, sizeof(args), VK_NULL_HANDLE, 1);
+void PathTracer::Impl::addKernels(Pipeline pipeline) {
+  const auto start = Clock::now();
+  kernels->add(pipeline);
+  const double seconds = secondsSince(start);
+  totals.compileSeconds += seconds;
+  choice.addCompilation(seconds * 1e3);
 }
 
-void PathTracer::Impl::dispatch(const gpu::Kernel& kernel, uint32_t stage) {
-  const gpu::KernelArgs args = arguments(0); // `prepare` alone reads that member
-  const uint64_t offset = offsetof(gpu::WaveState, dispatches) + stage * sizeof(gpu::DispatchSize);
-  commands.dispatchIndirect(kernel, &args, sizeof(args), textures().set(), pool->wave, offset);
-}
-
-void PathTracer::Impl::recordWave() {
-  recordPrepare(gpu::kPrepareRegenerate);
-  dispatch(kernels->regenerate, gpu::kStageRegenerate);
-  recordPrepare(gpu::kPrepareIntersect);
-  dispatch(kernels->intersectClosest, gpu::kStageIntersectClosest);
-  if (kernels->shadeMedium) {
-    recordPrepare(gpu::kPrepareMedium);
-    dispatch(*kernels->shadeMedium, gpu::kStageShadeMedium);
-  }
-  recordPrepare(gpu::kPrepareShade);
-  if (kernels->shadeEscaped) dispatch(*kernels->shadeEscaped, gpu::kStageShadeEscaped);
-  dispatch(kernels->shadeSurface, gpu::kStageShadeSurface);
-  recordPrepare(gpu::kPrepareShadow);
-  if (kernels->intersectShadow) dispatch(*kernels->intersectShadow, gpu::kStageIntersectShadow);
-  dispatch(kernels->accumulate, gpu::kStageAccumulate);
-}
-
-void PathTracer::Impl::submit() {
+void PathTracer::Impl::submit(Pipeline pipeline) {
   commands.begin();
-  for (uint32_t wave = 0; wave < wavesPerSubmit; ++wave) recordWave();
+  const Recording recording{commands, *kernels, *pool, textures().set(), arguments()};
+  if (pipeline == Pipeline::Fused) {
+    recordFused(recording, work.steps(), lastPipeline != Pipeline::Fused);
+  } else {
+    for (uint32_t wave = 0; wave < work.waves(); ++wave) recordWave(recording);
+  }
   commands.copy(pool->wave, pool->readback);
   commands.submitAndWait();
+  lastPipeline = pipeline;
+  const uint64_t raysBefore = last.primaryRays + last.bounceRays + last.shadowRays;
   std::memcpy(&last, pool->readback.mapped(), sizeof(last));
-}
-
-// Work per submit follows the measured times; it never changes the image.
-void PathTracer::Impl::adapt() {
-  const double ratio = execution.submitMilliseconds / std::max(commands.lastSubmitMilliseconds(), 0.1);
-  const double waves = wavesPerSubmit * std::clamp(ratio, 0.25, 2.0);
-  wavesPerSubmit = static_cast<uint32_t>(std::clamp(std::round(waves), 1.0, double{kMaxWavesPerSubmit}));
-  const double longest = commands.lastLongestDispatchMilliseconds();
-  const double limit = std::min(kLongestDispatchMilliseconds, execution.submitMilliseconds);
-  if (longest > limit) {
-    const double smaller = activeLimit * std::max(0.25, limit / longest * 0.8);
-    activeLimit = std::max(kFewestActivePaths, static_cast<uint32_t>(smaller));
-  } else if (longest < 0.5 * limit && activeLimit < pool->capacity) {
-    activeLimit = std::min(pool->capacity, activeLimit + activeLimit / 4);
-  }
+  const uint64_t rays = last.primaryRays + last.bounceRays + last.shadowRays - raysBefore;
+  const double milliseconds = commands.lastSubmitMilliseconds();
+  PipelineStatistics& done = pipeline == Pipeline::Fused ? totals.fused : totals.wavefront;
+  ++done.submits;
+  done.rays += rays;
+  done.milliseconds += milliseconds;
+  work.follow(pipeline, milliseconds, commands.lastLongestDispatchMilliseconds(), startsPaths());
+  // The end of a render, when no new paths start, tells little.
+  if (startsPaths()) choice.add(rays, milliseconds);
 }
 
 // Moves the finished render's counters into the totals.
@@ -303,6 +281,8 @@ void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
   impl_->writeRenderView(camera, range);
   impl_->findCameraMedia();
   impl_->pool->reset(impl_->device, range.begun);
+  impl_->work.beginRender();
+  impl_->lastPipeline.reset();
   impl_->asked = range;
   impl_->last = {};
   impl_->last.nextWork = range.begun;
@@ -313,8 +293,9 @@ bool PathTracer::advance() {
   if (impl_->film == nullptr) return false;
   if (!impl_->done()) {
     const auto start = Clock::now();
-    impl_->submit();
-    impl_->adapt();
+    const Pipeline pipeline = impl_->choice.next();
+    impl_->addKernels(pipeline); // of the rival, where a race begins
+    impl_->submit(pipeline);
     impl_->totals.renderSeconds += secondsSince(start);
     if (impl_->totals.firstPixelSeconds == 0) impl_->totals.firstPixelSeconds = secondsSince(impl_->constructed);
   }
@@ -362,6 +343,8 @@ RenderStatistics PathTracer::statistics() const {
   statistics.bounceRays += impl_->last.bounceRays;
   statistics.shadowRays += impl_->last.shadowRays;
   statistics.workgroupSize = impl_->workgroupSize;
+  statistics.pipeline = impl_->choice.next();
+  statistics.pipelineIsSettled = impl_->choice.isSettled();
   if (!impl_->kernels) return statistics;
   statistics.queueBytes = impl_->pool->bytes();
   statistics.bytesPerPath = impl_->pool->bytesPerPath();

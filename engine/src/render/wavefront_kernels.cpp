@@ -11,16 +11,7 @@ namespace isophote {
 namespace {
 
 // Those that trace rays: they are compiled once for each backend (RAY_QUERY in engine/CMakeLists.txt).
-constexpr std::string_view kTracingKernels[] = {"intersect_closest", "intersect_shadow", "find_camera_media"};
-
-// Whether some surface point can sample a light: with BSDF sampling only, just the lights that no direction can find.
-bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger) {
-  if (settings.maxDepth == 0 && !depthLedger) return false;
-  if (features.has(Feature::kHasPunctualLights)) return true;
-  return settings.lightSampling != LightSampling::BsdfOnly &&
-         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights) ||
-          features.has(Feature::kHasSuns) || features.has(Feature::kHasEnvironment));
-}
+constexpr std::string_view kTracingKernels[] = {"intersect_closest", "intersect_shadow", "find_camera_media", "fused"};
 
 // Whether a ray that met no surface can see anything.
 bool shinesBeyondSurfaces(const FeatureSet& features) {
@@ -29,6 +20,15 @@ bool shinesBeyondSurfaces(const FeatureSet& features) {
 }
 
 } // namespace
+
+// With BSDF sampling only, just the lights that no direction can find.
+bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger) {
+  if (settings.maxDepth == 0 && !depthLedger) return false;
+  if (features.has(Feature::kHasPunctualLights)) return true;
+  return settings.lightSampling != LightSampling::BsdfOnly &&
+         (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights) ||
+          features.has(Feature::kHasSuns) || features.has(Feature::kHasEnvironment));
+}
 
 std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features, const EstimatorSettings& settings,
                                                uint32_t workgroupSize, const KernelNeeds& needs) {
@@ -68,38 +68,53 @@ gpu::KernelSource kernelOf(std::string_view name, Backend backend) {
   return source;
 }
 
-std::vector<const gpu::Kernel*> WavefrontKernels::all() const {
-  std::vector<const gpu::Kernel*> kernels = {&prepare, &regenerate, &intersectClosest};
-  if (shadeEscaped) kernels.push_back(&*shadeEscaped);
-  if (shadeMedium) kernels.push_back(&*shadeMedium);
-  kernels.push_back(&shadeSurface);
-  if (intersectShadow) kernels.push_back(&*intersectShadow);
-  kernels.push_back(&accumulate);
-  if (findCameraMedia) kernels.push_back(&*findCameraMedia);
+std::vector<const gpu::Kernel*> RenderKernels::all() const {
+  std::vector<const gpu::Kernel*> kernels = {&prepare};
+  const auto add = [&](const std::optional<gpu::Kernel>& kernel) {
+    if (kernel) kernels.push_back(&*kernel);
+  };
+  if (wavefront) {
+    kernels.push_back(&wavefront->regenerate);
+    kernels.push_back(&wavefront->intersectClosest);
+    add(wavefront->shadeEscaped);
+    add(wavefront->shadeMedium);
+    kernels.push_back(&wavefront->shadeSurface);
+    add(wavefront->intersectShadow);
+    kernels.push_back(&wavefront->accumulate);
+  }
+  add(fused);
+  add(findCameraMedia);
   return kernels;
 }
 
-WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
-                                      const EstimatorSettings& settings, uint32_t workgroupSize,
-                                      VkDescriptorSetLayout textureLayout, const KernelNeeds& needs) {
-  const auto constants = kernelConstants(features, settings, workgroupSize, needs);
-  const auto make = [&](const char* name) {
-    return gpu::Kernel(device, kernelOf(name, needs.backend), constants, textureLayout, sizeof(gpu::KernelArgs));
-  };
-  WavefrontKernels kernels{.prepare = make("prepare"),
-                           .regenerate = make("regenerate"),
-                           .intersectClosest = make("intersect_closest"),
-                           .shadeEscaped = std::nullopt,
-                           .shadeMedium = std::nullopt,
-                           .shadeSurface = make("shade_surface"),
-                           .intersectShadow = std::nullopt,
-                           .accumulate = make("accumulate"),
-                           .findCameraMedia = std::nullopt};
-  if (shinesBeyondSurfaces(features)) kernels.shadeEscaped = make("shade_escaped");
-  if (features.has(Feature::kHasScatteringMedia)) kernels.shadeMedium = make("shade_medium");
-  if (features.has(Feature::kHasVolumes)) kernels.findCameraMedia = make("find_camera_media");
-  if (samplesLights(features, settings, needs.depthLedger)) kernels.intersectShadow = make("intersect_shadow");
-  return kernels;
+RenderKernels::RenderKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
+                             uint32_t workgroupSize, VkDescriptorSetLayout textureLayout, const KernelNeeds& needs)
+    : device_(&device), features_(features), shadowRays_(samplesLights(features, settings, needs.depthLedger)),
+      backend_(needs.backend), constants_(kernelConstants(features, settings, workgroupSize, needs)),
+      textureLayout_(textureLayout) {
+  prepare = make("prepare");
+  findCameraMedia = makeIf(features.has(Feature::kHasVolumes), "find_camera_media");
+}
+
+void RenderKernels::add(Pipeline pipeline) {
+  if (pipeline != Pipeline::Wavefront && !fused) fused = make("fused");
+  if (pipeline != Pipeline::Fused && !wavefront) {
+    wavefront = WavefrontKernels{.regenerate = make("regenerate"),
+                                 .intersectClosest = make("intersect_closest"),
+                                 .shadeEscaped = makeIf(shinesBeyondSurfaces(features_), "shade_escaped"),
+                                 .shadeMedium = makeIf(features_.has(Feature::kHasScatteringMedia), "shade_medium"),
+                                 .shadeSurface = make("shade_surface"),
+                                 .intersectShadow = makeIf(shadowRays_, "intersect_shadow"),
+                                 .accumulate = make("accumulate")};
+  }
+}
+
+gpu::Kernel RenderKernels::make(const char* name) const {
+  return {*device_, kernelOf(name, backend_), constants_, textureLayout_, sizeof(gpu::KernelArgs)};
+}
+
+std::optional<gpu::Kernel> RenderKernels::makeIf(bool needed, const char* name) const {
+  return needed ? std::optional(make(name)) : std::nullopt;
 }
 
 } // namespace isophote

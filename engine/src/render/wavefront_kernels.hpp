@@ -19,20 +19,19 @@ struct KernelNeeds {
   bool operator==(const KernelNeeds&) const = default;
 };
 
+/// A kernel for each stage.
 struct WavefrontKernels {
-  gpu::Kernel prepare;
   gpu::Kernel regenerate;
   gpu::Kernel intersectClosest;
-  std::optional<gpu::Kernel> shadeEscaped; ///< with an environment
+  std::optional<gpu::Kernel> shadeEscaped; ///< where something shines beyond surfaces
   std::optional<gpu::Kernel> shadeMedium;  ///< with scattering media
   gpu::Kernel shadeSurface;
   std::optional<gpu::Kernel> intersectShadow; ///< with a light to sample
   gpu::Kernel accumulate;
-  std::optional<gpu::Kernel> findCameraMedia; ///< with volumes; once a render
-
-  /// Those that exist, in the order of a wave.
-  [[nodiscard]] std::vector<const gpu::Kernel*> all() const;
 };
+
+/// Whether some vertex can sample a light, so that there are shadow rays.
+[[nodiscard]] bool samplesLights(const FeatureSet& features, const EstimatorSettings& settings, bool depthLedger);
 
 /// What specializes a kernel: workgroup size, features, settings.
 [[nodiscard]] std::vector<gpu::SpecConstant> kernelConstants(const FeatureSet& features,
@@ -42,9 +41,34 @@ struct WavefrontKernels {
 /// The product's kernel `name` for scenes of a backend; statistics know it by the same name in both.
 [[nodiscard]] gpu::KernelSource kernelOf(std::string_view name, Backend backend);
 
-/// @param textureLayout  of the scene's texture array, null where it has none
-[[nodiscard]] WavefrontKernels makeWavefrontKernels(const Device& device, const FeatureSet& features,
-                                                    const EstimatorSettings& settings, uint32_t workgroupSize,
-                                                    VkDescriptorSetLayout textureLayout, const KernelNeeds& needs = {});
+/// What both ways of work share, and each way's own kernels once it is asked for. Borrows the Device.
+class RenderKernels {
+public:
+  /// @param textureLayout  of the scene's texture array, null where it has none
+  RenderKernels(const Device& device, const FeatureSet& features, const EstimatorSettings& settings,
+                uint32_t workgroupSize, VkDescriptorSetLayout textureLayout, const KernelNeeds& needs = {});
+
+  /// Builds the kernels of this way, unless they are there. Auto: of both.
+  void add(Pipeline pipeline);
+
+  gpu::Kernel prepare;
+  std::optional<gpu::Kernel> findCameraMedia; ///< with volumes; once a render
+  std::optional<WavefrontKernels> wavefront;
+  std::optional<gpu::Kernel> fused;
+
+  /// Those that exist, in the order of a wave.
+  [[nodiscard]] std::vector<const gpu::Kernel*> all() const;
+
+private:
+  [[nodiscard]] gpu::Kernel make(const char* name) const;
+  [[nodiscard]] std::optional<gpu::Kernel> makeIf(bool needed, const char* name) const;
+
+  const Device* device_;
+  FeatureSet features_;
+  bool shadowRays_;
+  Backend backend_;
+  std::vector<gpu::SpecConstant> constants_;
+  VkDescriptorSetLayout textureLayout_;
+};
 
 } // namespace isophote

@@ -1,0 +1,46 @@
+#include "render/pipeline_choice.hpp"
+
+#include <algorithm>
+
+namespace isophote {
+namespace {
+
+// Submits of each that find their length, and then those that count.
+constexpr uint32_t kWarmUp = 8;
+constexpr uint32_t kMeasured = 12;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+} // namespace
+
+PipelineChoice::PipelineChoice(Pipeline asked, bool mayRace, double compileShare)
+    : next_(asked == Pipeline::Fused ? Pipeline::Fused : Pipeline::Wavefront),
+      stage_(asked == Pipeline::Auto && mayRace ? Stage::Alone : Stage::Settled), compileShare_(compileShare) {}
+
+Pipeline PipelineChoice::next() const { return next_; }
+
+void PipelineChoice::add(uint64_t rays, double milliseconds) {
+  const Pipeline other = next_ == Pipeline::Fused ? Pipeline::Wavefront : Pipeline::Fused;
+  if (stage_ == Stage::Alone) {
+    (used_ ? aloneMilliseconds_ : compileMilliseconds_) += milliseconds;
+    used_ = true;
+    if (aloneMilliseconds_ * compileShare_ < compileMilliseconds_) return;
+    stage_ = Stage::Race;
+    next_ = other;
+    return;
+  }
+  if (stage_ == Stage::Settled) return;
+  Run& current = run(next_);
+  // A device may measure no time.
+  if (++current.submits > kWarmUp) current.speeds.push_back(static_cast<double>(rays) / std::max(milliseconds, 1e-3));
+  const Run& rival = run(other);
+  const bool finished = current.speeds.size() >= kMeasured && rival.speeds.size() >= kMeasured;
+  if (!finished || median(rival.speeds) > median(current.speeds)) next_ = other;
+  if (finished) stage_ = Stage::Settled;
+}
+
+} // namespace isophote

@@ -1,0 +1,47 @@
+// Which pipeline the next submit uses, where that is left to measurement.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "isophote/settings.hpp"
+
+namespace isophote {
+
+/// Wavefront and fused kernel give the same image, bit for bit, and a submit of one can follow a submit of the other.
+/// So the two can race on the render's own samples: the wavefront, whose kernels never take long to compile, begins;
+/// once it has worked long enough for the compilation of its rival to be a small part of the whole, they take turns;
+/// the one whose median submit traced more rays in its time stays.
+class PipelineChoice {
+public:
+  /// @param asked         Wavefront or Fused: there is nothing to choose
+  /// @param mayRace       else Auto is the wavefront
+  /// @param compileShare  of the time before the race, that the rival's compilation may take
+  PipelineChoice(Pipeline asked, bool mayRace, double compileShare);
+
+  [[nodiscard]] Pipeline next() const;
+  [[nodiscard]] bool isSettled() const { return stage_ == Stage::Settled; }
+  /// Making the kernels of next() took so long; the rival's are taken to take as long as the wavefront's.
+  void addCompilation(double milliseconds) { compileMilliseconds_ += milliseconds; }
+  /// What a submit of next() did. The first one counts as compilation: llvmpipe compiles what is used.
+  void add(uint64_t rays, double milliseconds);
+
+private:
+  enum class Stage : uint32_t { Alone, Race, Settled };
+  struct Run {
+    uint32_t submits = 0;
+    std::vector<double> speeds; ///< rays a millisecond, after those that warm up
+  };
+  [[nodiscard]] Run& run(Pipeline pipeline) { return runs_[static_cast<size_t>(pipeline)]; }
+
+  Pipeline next_;
+  Stage stage_;
+  double compileShare_;
+  bool used_ = false;
+  double compileMilliseconds_ = 0;
+  double aloneMilliseconds_ = 0;
+  std::array<Run, 2> runs_; ///< in the race, by Pipeline
+};
+
+} // namespace isophote
