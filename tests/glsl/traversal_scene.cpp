@@ -116,11 +116,16 @@ glm::vec3 randomDirection(std::mt19937& random) {
 
 glm::dmat4 randomPlacement(std::mt19937& random, double spread) {
   std::uniform_real_distribution<double> unit(-1, 1);
-  const auto scale = [&] { return std::exp2(2 * unit(random)); };
-  glm::dmat4 placement = glm::translate(glm::dmat4(1), spread * glm::dvec3(unit(random), unit(random), unit(random)));
-  placement = glm::rotate(placement, kPi * unit(random), glm::dvec3(randomDirection(random)));
+  // One draw a statement: compilers differ in which argument of a call they evaluate first.
+  const auto draw = [&](const auto& next) {
+    const double z = next(), y = next(), x = next();
+    return glm::dvec3(x, y, z);
+  };
+  glm::dmat4 placement = glm::translate(glm::dmat4(1), spread * draw([&] { return unit(random); }));
+  const glm::dvec3 axis(randomDirection(random));
+  placement = glm::rotate(placement, kPi * unit(random), axis);
   const double mirror = unit(random) < 0 ? -1 : 1;
-  return glm::scale(placement, glm::dvec3(mirror * scale(), scale(), scale()));
+  return glm::scale(placement, glm::dvec3(mirror, 1, 1) * draw([&] { return std::exp2(2 * unit(random)); }));
 }
 
 std::optional<ReferenceHit> bruteForceHit(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction,
