@@ -17,9 +17,11 @@ PathTracer& Workbench::tracer(const Settings& settings) {
       settingsJson(settings, SettingKind::Estimator).dump() + settingsJson(settings, SettingKind::Execution).dump();
   std::unique_ptr<PathTracer>& entry = tracers_[key];
   if (!entry) {
+    ExecutionSettings execution = settings.execution;
+    if (execution.pipeline == Pipeline::Auto)
+      execution.pipeline = Pipeline::Wavefront; // a race would disturb the times
     try {
-      entry = std::make_unique<PathTracer>(device_, gpuScene(settings.scene.bvhBuild), settings.estimator,
-                                           settings.execution);
+      entry = std::make_unique<PathTracer>(device_, gpuScene(settings.scene.bvhBuild), settings.estimator, execution);
     } catch (...) {
       tracers_.erase(key);
       throw;
