@@ -95,10 +95,16 @@ Mesh sphereMesh(glm::vec3 center, float radius, uint32_t rings) {
   return meshOf(std::move(positions), std::move(indices));
 }
 
+/// Three draws in a row, z first: in the arguments of a call each compiler has an order of its own.
+template <class Next> static glm::dvec3 drawVector(const Next& next) {
+  const double z = next(), y = next(), x = next();
+  return {x, y, z};
+}
+
 std::vector<glm::vec3> triangleSoup(uint32_t count, float size, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(-1, 1);
-  const auto point = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+  const auto point = [&] { return glm::vec3(drawVector([&] { return unit(random); })); };
   std::vector<glm::vec3> positions;
   for (uint32_t i = 0; i < count; ++i) {
     const glm::vec3 first = point();
@@ -111,21 +117,16 @@ std::vector<glm::vec3> triangleSoup(uint32_t count, float size, uint32_t seed) {
 
 glm::vec3 randomDirection(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  return glm::vec3(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))));
+  return glm::vec3(glm::normalize(drawVector([&] { return normal(random); })));
 }
 
 glm::dmat4 randomPlacement(std::mt19937& random, double spread) {
   std::uniform_real_distribution<double> unit(-1, 1);
-  // One draw a statement: compilers differ in which argument of a call they evaluate first.
-  const auto draw = [&](const auto& next) {
-    const double z = next(), y = next(), x = next();
-    return glm::dvec3(x, y, z);
-  };
-  glm::dmat4 placement = glm::translate(glm::dmat4(1), spread * draw([&] { return unit(random); }));
+  glm::dmat4 placement = glm::translate(glm::dmat4(1), spread * drawVector([&] { return unit(random); }));
   const glm::dvec3 axis(randomDirection(random));
   placement = glm::rotate(placement, kPi * unit(random), axis);
   const double mirror = unit(random) < 0 ? -1 : 1;
-  return glm::scale(placement, glm::dvec3(mirror, 1, 1) * draw([&] { return std::exp2(2 * unit(random)); }));
+  return glm::scale(placement, glm::dvec3(mirror, 1, 1) * drawVector([&] { return std::exp2(2 * unit(random)); }));
 }
 
 std::optional<ReferenceHit> bruteForceHit(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction,
