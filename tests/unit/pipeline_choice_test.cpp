@@ -21,7 +21,7 @@ int settle(PipelineChoice& choice, double fusedSpeed, double wavefrontSpeed, int
 
 TEST(PipelineChoice, KeepsWhatWasAskedFor) {
   for (const Pipeline asked : {Pipeline::Wavefront, Pipeline::Fused}) {
-    PipelineChoice choice(asked, true, 0.05);
+    PipelineChoice choice(asked, Pipeline::Wavefront, true, 0.05);
     EXPECT_TRUE(choice.isSettled());
     choice.add(0, 1e9);
     EXPECT_EQ(choice.next(), asked);
@@ -29,16 +29,18 @@ TEST(PipelineChoice, KeepsWhatWasAskedFor) {
 }
 
 TEST(PipelineChoice, SettlesOnTheFasterWhicheverItIs) {
-  for (const double fused : {900.0, 1100.0}) {
-    PipelineChoice choice(Pipeline::Auto, true, 0.05);
-    EXPECT_EQ(choice.next(), Pipeline::Wavefront);
-    EXPECT_LT(settle(choice, fused, 1000), 1000);
-    EXPECT_EQ(choice.next(), fused > 1000 ? Pipeline::Fused : Pipeline::Wavefront);
+  for (const Pipeline first : {Pipeline::Wavefront, Pipeline::Fused}) {
+    for (const double fused : {900.0, 1100.0}) {
+      PipelineChoice choice(Pipeline::Auto, first, true, 0.05);
+      EXPECT_EQ(choice.next(), first);
+      EXPECT_LT(settle(choice, fused, 1000), 1000);
+      EXPECT_EQ(choice.next(), fused > 1000 ? Pipeline::Fused : Pipeline::Wavefront);
+    }
   }
 }
 
 TEST(PipelineChoice, AFewSubmitsThatWaitedForAnotherProgramDecideNothing) {
-  PipelineChoice choice(Pipeline::Auto, true, 0.05);
+  PipelineChoice choice(Pipeline::Auto, Pipeline::Wavefront, true, 0.05);
   for (int i = 0; i < 1000 && !choice.isSettled(); ++i) {
     const bool fused = choice.next() == Pipeline::Fused;
     const bool waited = fused && i % 10 < 2;
@@ -48,7 +50,7 @@ TEST(PipelineChoice, AFewSubmitsThatWaitedForAnotherProgramDecideNothing) {
 }
 
 TEST(PipelineChoice, CompilesTheRivalOnlyWhenThatIsASmallPartOfTheTime) {
-  PipelineChoice choice(Pipeline::Auto, true, 0.05);
+  PipelineChoice choice(Pipeline::Auto, Pipeline::Wavefront, true, 0.05);
   choice.addCompilation(kCompile / 2);
   choice.add(1, kCompile / 2); // the first submit compiles
   int alone = 0;
@@ -57,15 +59,17 @@ TEST(PipelineChoice, CompilesTheRivalOnlyWhenThatIsASmallPartOfTheTime) {
 }
 
 TEST(PipelineChoice, ARaceOfNoTimeEnds) {
-  PipelineChoice choice(Pipeline::Auto, true, 0);
+  PipelineChoice choice(Pipeline::Auto, Pipeline::Wavefront, true, 0);
   for (int i = 0; i < 100; ++i) choice.add(0, 0);
   EXPECT_TRUE(choice.isSettled());
 }
 
-TEST(PipelineChoice, WithoutARaceAutoIsTheWavefront) {
-  const PipelineChoice choice(Pipeline::Auto, false, 0.05);
-  EXPECT_TRUE(choice.isSettled());
-  EXPECT_EQ(choice.next(), Pipeline::Wavefront);
+TEST(PipelineChoice, WithoutARaceAutoStaysWithTheFirst) {
+  for (const Pipeline first : {Pipeline::Wavefront, Pipeline::Fused}) {
+    const PipelineChoice choice(Pipeline::Auto, first, false, 0.05);
+    EXPECT_TRUE(choice.isSettled());
+    EXPECT_EQ(choice.next(), first);
+  }
 }
 
 } // namespace

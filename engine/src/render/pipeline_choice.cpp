@@ -17,8 +17,8 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-PipelineChoice::PipelineChoice(Pipeline asked, bool mayRace, double compileShare)
-    : next_(asked == Pipeline::Fused ? Pipeline::Fused : Pipeline::Wavefront),
+PipelineChoice::PipelineChoice(Pipeline asked, Pipeline first, bool mayRace, double compileShare)
+    : next_(asked == Pipeline::Auto ? first : asked),
       stage_(asked == Pipeline::Auto && mayRace ? Stage::Alone : Stage::Settled), compileShare_(compileShare) {}
 
 Pipeline PipelineChoice::next() const { return next_; }

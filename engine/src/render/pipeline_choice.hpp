@@ -10,19 +10,20 @@
 namespace isophote {
 
 /// Wavefront and fused kernel give the same image, bit for bit, and a submit of one can follow a submit of the other.
-/// So the two can race on the render's own samples: the wavefront, whose kernels never take long to compile, begins;
-/// once it has worked long enough for the compilation of its rival to be a small part of the whole, they take turns;
-/// the one whose median submit traced more rays in its time stays.
+/// So the two can race on the render's own samples: one begins; once it has worked long enough for the compilation of
+/// its rival to be a small part of the whole, they take turns; the one whose median submit traced more rays in its time
+/// stays.
 class PipelineChoice {
 public:
   /// @param asked         Wavefront or Fused: there is nothing to choose
-  /// @param mayRace       else Auto is the wavefront
+  /// @param first         that Auto begins with
+  /// @param mayRace       else Auto stays with it
   /// @param compileShare  of the time before the race, that the rival's compilation may take
-  PipelineChoice(Pipeline asked, bool mayRace, double compileShare);
+  PipelineChoice(Pipeline asked, Pipeline first, bool mayRace, double compileShare);
 
   [[nodiscard]] Pipeline next() const;
   [[nodiscard]] bool isSettled() const { return stage_ == Stage::Settled; }
-  /// Making the kernels of next() took so long; the rival's are taken to take as long as the wavefront's.
+  /// Making the kernels of next() took so long; the rival's are taken to take as long.
   void addCompilation(double milliseconds) { compileMilliseconds_ += milliseconds; }
   /// What a submit of next() did. The first one counts as compilation: llvmpipe compiles what is used.
   void add(uint64_t rays, double milliseconds);
