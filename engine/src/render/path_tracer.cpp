@@ -82,7 +82,7 @@ struct PathTracer::Impl {
   void addKernels(Pipeline pipeline);
   void submit(Pipeline pipeline);
   void retire();
-  /// On GPUs the fused kernel was never measured. On CPUs it is the faster one by the clock in all scenes that were,
+  /// On GPUs the fused kernel was never measured. On CPUs it is as fast or faster by the clock in all scenes that were,
   /// but with all features it takes twice as long to compile.
   [[nodiscard]] PipelineChoice newChoice() const {
     const Pipeline first = device.isCpu() && execution.specialize ? Pipeline::Fused : Pipeline::Wavefront;
