@@ -178,13 +178,13 @@ TEST(BsdfGlass, Test8IsReciprocal) {
     const BsdfCase& c = cases[i];
     const bool thin = c.thinWalled != 0;
     const double n = thin ? 1 : double(c.ior);
-    // Tables are interpolated to 5e-4 at grazing angles. Sixteen roundings, 2^-20, turn a facet's normal by that over
-    // the length of the sum that it is the direction of, where the density of normals falls by up to 2 / alpha a
-    // radian; and grazing cosines lose as much of themselves.
+    // Sixteen roundings, 2^-20. They turn a facet's normal by that over the length of the sum that it is the direction
+    // of, where the density of normals falls by up to 2 / alpha a radian. From inside, the squared cosine outside is
+    // 1 - n^2 sin^2: it loses n^2 times as much, and what is transmitted follows the cosine where that is small.
     const glm::dvec3 sum = glm::dvec3(c.wo) + (thin ? glm::dvec3(c.wi.x, c.wi.y, -c.wi.z) : n * glm::dvec3(c.wi));
     const double alpha = double(c.roughness) * double(c.roughness);
     const double facing = std::abs(glm::dot(glm::dvec3(c.wo), glm::normalize(sum)));
-    const double relative = 5e-4 + 0x1p-20 * (2 / (alpha * glm::length(sum)) + 1 / (facing * glm::length(sum)));
+    const double relative = 2e-5 + 0x1p-20 * (2 / (alpha * glm::length(sum)) + n * n / (facing * facing));
     for (int k = 0; k < 3; ++k) {
       const double there = double(forward[i].fCos[k]) / -double(c.wi.z);
       const double back = double(backward[i].fCos[k]) / double(c.wo.z) / (n * n);

@@ -294,9 +294,9 @@ void PathTracer::begin(const Camera& camera, Film& film, SampleRange range) {
 bool PathTracer::advance() {
   if (impl_->film == nullptr) return false;
   if (!impl_->done()) {
-    const auto start = Clock::now();
     const Pipeline pipeline = impl_->choice.next();
     impl_->addKernels(pipeline); // of the rival, where a race begins
+    const auto start = Clock::now();
     impl_->submit(pipeline);
     impl_->totals.renderSeconds += secondsSince(start);
     if (impl_->totals.firstPixelSeconds == 0) impl_->totals.firstPixelSeconds = secondsSince(impl_->constructed);
