@@ -74,6 +74,12 @@ SettingEntry untraded(SettingEntry entry) {
   return entry;
 }
 
+/// An entry one of whose values the comparison cannot judge.
+SettingEntry withoutTrial(const std::string& value, SettingEntry entry) {
+  std::erase(entry.trials, value);
+  return entry;
+}
+
 std::vector<SettingEntry> makeTable() {
   const Names<bool> onOff = {{"on", true}, {"off", false}};
   using E = EstimatorSettings;
@@ -81,9 +87,15 @@ std::vector<SettingEntry> makeTable() {
   const auto estimator = &Settings::estimator;
   const auto execution = &Settings::execution;
   return {
-      choice({"sampler", "sobol, independent", "sobol", "sobol",
-              "where random numbers come from (Owen-scrambled Sobol points)"},
-             estimator, &E::sampler, {{"sobol", SamplerKind::Sobol}, {"independent", SamplerKind::Independent}}),
+      withoutTrial(
+          "sobol-joint", // its error bars do not tell its noise
+          choice({"sampler", "sobol, sobol-joint, independent", "sobol", "sobol",
+                  "where random numbers come from: Owen-scrambled Sobol points in eight sequences a pixel, for "
+                  "true error bars, or in one, for less noise under error bars that are too wide"},
+                 estimator, &E::sampler,
+                 {{"sobol", SamplerKind::Sobol},
+                  {"sobol-joint", SamplerKind::SobolJoint},
+                  {"independent", SamplerKind::Independent}})),
       untraded(choice({"filter", "box, gaussian, blackman-harris", "blackman-harris", "blackman-harris",
                        "pixel filter, importance sampled"},
                       estimator, &E::filter,

@@ -139,7 +139,8 @@ void addEstimatorFlags(CLI::App& command, RenderOptions& options) {
   addSetting("max-depth", "N", "Scattering events on a path: 0 emission seen directly, 1 direct light (unlimited)");
   addSetting("seed", "N", "64 bits (0)");
   addSetting("filter", "NAME", "Pixel filter: box, gaussian, blackman-harris (default)");
-  addSetting("sampler", "NAME", "sobol (Owen-scrambled, default), independent");
+  addSetting("sampler", "NAME",
+             "sobol (Owen-scrambled, default), sobol-joint (less noise, error bars too wide), independent");
   addSetting("ndf", "NAME", "Microfacets: ggx (default), beckmann, blinn-phong");
   addSetting("masking", "NAME", "Of microfacets: correlated (default), separable");
   addSetting("fresnel", "NAME", "Of dielectrics: gltf (default), exact, schlick");

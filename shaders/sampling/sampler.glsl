@@ -11,6 +11,10 @@
 
 const uint kSamplerSobol = 0u; // values of kSampler, as isophote::SamplerKind
 const uint kSamplerIndependent = 1u;
+const uint kSamplerSobolJoint = 2u;
+
+// Sequences that a pixel's samples take turns in.
+const uint kSequenceCount = kSampler == kSamplerSobolJoint ? 1u : kReplicateCount;
 
 struct SampleKey {
   uint pixel; // x | y << 16
@@ -20,11 +24,11 @@ struct SampleKey {
 
 /// The two numbers of pair `pair`, as 32-bit fractions.
 ///
-/// Sobol: sample s is point s / kReplicateCount of replicate s % kReplicateCount; pairs, pixels, replicates and seeds
-/// differ by scrambling. No two keys share all scramble seeds: pcg4d is a bijection of the 128-bit key.
-/// Since every prefix of 2^m points is a net in each pair, neighbouring samples lie in opposite halves in every pair:
-/// the coarsest interaction between two pairs has up to twice the variance of independent numbers, all others gain or
-/// equal.
+/// Sobol: sample s is point s / kSequenceCount of sequence s % kSequenceCount; pairs, pixels, sequences and seeds
+/// differ by scrambling. Each replicate is a sequence of its own, or they share one. No two keys share all scramble
+/// seeds: pcg4d is a bijection of the 128-bit key. Since every prefix of 2^m points is a net in each pair, neighbouring
+/// samples lie in opposite halves in every pair: the coarsest interaction between two pairs has up to twice the
+/// variance of independent numbers, all others gain or equal.
 /// @param pair  below 2^29
 uvec2 sampleBits2d(const SampleKey key, uint pair) {
   if (kSampler == kSamplerIndependent) {
@@ -32,9 +36,9 @@ uvec2 sampleBits2d(const SampleKey key, uint pair) {
     const uvec4 state = pcg4d(uvec4(key.pixel, key.sampleIndex, key.seed));
     return pcg4d(state ^ uvec4(pair, uvec3(0xffffffffu))).xy;
   }
-  const uint replicate = key.sampleIndex % kReplicateCount;
-  const uvec4 scramble = pcg4d(uvec4(key.pixel, pair * kReplicateCount + replicate, key.seed));
-  return owenSobol2d(key.sampleIndex / kReplicateCount, scramble.xyz);
+  const uint sequence = key.sampleIndex % kSequenceCount;
+  const uvec4 scramble = pcg4d(uvec4(key.pixel, pair * kReplicateCount + sequence, key.seed));
+  return owenSobol2d(key.sampleIndex / kSequenceCount, scramble.xyz);
 }
 
 /// The two numbers of pair `pair`, in [0, 1), multiples of 2^-24.

@@ -72,9 +72,10 @@ uint32_t scramble(uint32_t value, uint32_t seed) {
   return reverseBits(x);
 }
 
-glm::uvec2 oracleSobol(const SamplingKeyCase& c) {
-  const auto seeds = hash({c.pixel, c.pair * kReplicateCount + c.sampleIndex % kReplicateCount, c.seed.x, c.seed.y});
-  const uint32_t index = scramble(c.sampleIndex / kReplicateCount, seeds[0]);
+/// @param sequences  that the samples take turns in
+glm::uvec2 oracleSobol(const SamplingKeyCase& c, uint32_t sequences) {
+  const auto seeds = hash({c.pixel, c.pair * kReplicateCount + c.sampleIndex % sequences, c.seed.x, c.seed.y});
+  const uint32_t index = scramble(c.sampleIndex / sequences, seeds[0]);
   return {scramble(sobol(index, 0), seeds[1]), scramble(sobol(index, 1), seeds[2])};
 }
 
@@ -99,12 +100,14 @@ std::vector<SamplingKeyCase> randomKeys(uint32_t count) {
   return cases;
 }
 
-TEST(Sampler, BothKindsMatchTheOracleToTheBit) {
+TEST(Sampler, AllKindsMatchTheOracleToTheBit) {
   const auto cases = randomKeys(200'000);
   const auto sobolResults = run(cases, SamplerKind::Sobol);
+  const auto jointResults = run(cases, SamplerKind::SobolJoint);
   const auto independentResults = run(cases, SamplerKind::Independent);
   for (size_t i = 0; i < cases.size(); ++i) {
-    ASSERT_EQ(sobolResults[i].bits, oracleSobol(cases[i])) << i;
+    ASSERT_EQ(sobolResults[i].bits, oracleSobol(cases[i], kReplicateCount)) << i;
+    ASSERT_EQ(jointResults[i].bits, oracleSobol(cases[i], 1)) << i;
     ASSERT_EQ(independentResults[i].bits, oracleIndependent(cases[i])) << i;
     for (int axis = 0; axis < 2; ++axis) {
       ASSERT_EQ(sobolResults[i].unit[axis], std::ldexp(static_cast<float>(sobolResults[i].bits[axis] >> 8), -24)) << i;
@@ -113,9 +116,9 @@ TEST(Sampler, BothKindsMatchTheOracleToTheBit) {
   }
 }
 
-// Every aligned block of 2^m points of every replicate has exactly one point in each of its elementary intervals
-// 2^-a x 2^-(m-a).
-TEST(Sampler, EveryReplicateIsAZeroTwoSequence) {
+/// Every aligned block of 2^m points of every sequence has exactly one point in each of its elementary intervals
+/// 2^-a x 2^-(m-a). @param sequences  that the samples take turns in
+void expectZeroTwoSequences(SamplerKind kind, uint32_t sequences) {
   const uint32_t log2Count = 9;
   const uint32_t count = 1u << log2Count;
   std::vector<SamplingKeyCase> cases;
@@ -123,12 +126,12 @@ TEST(Sampler, EveryReplicateIsAZeroTwoSequence) {
   const uint32_t pairs[] = {0, 1, 4095};
   for (const uint32_t pixel : pixels) {
     for (const uint32_t pair : pairs) {
-      for (uint32_t replicate = 0; replicate < kReplicateCount; ++replicate) {
-        for (uint32_t i = 0; i < count; ++i) cases.push_back({pixel, i * kReplicateCount + replicate, {7, 9}, pair});
+      for (uint32_t sequence = 0; sequence < sequences; ++sequence) {
+        for (uint32_t i = 0; i < count; ++i) cases.push_back({pixel, i * sequences + sequence, {7, 9}, pair});
       }
     }
   }
-  const auto results = run(cases, SamplerKind::Sobol);
+  const auto results = run(cases, kind);
   for (size_t sequence = 0; sequence < results.size() / count; ++sequence) {
     for (uint32_t m = 1; m <= log2Count; ++m) {
       for (uint32_t block = 0; block < count >> m; ++block) {
@@ -147,6 +150,10 @@ TEST(Sampler, EveryReplicateIsAZeroTwoSequence) {
     }
   }
 }
+
+TEST(Sampler, EveryReplicateIsAZeroTwoSequence) { expectZeroTwoSequences(SamplerKind::Sobol, kReplicateCount); }
+
+TEST(Sampler, JointReplicatesAreOneZeroTwoSequence) { expectZeroTwoSequences(SamplerKind::SobolJoint, 1); }
 
 /// Counts of points in a square grid.
 std::vector<uint64_t> grid(const std::vector<double>& x, const std::vector<double>& y, uint32_t size) {

@@ -17,7 +17,7 @@ RenderOptions withEstimator(const EstimatorSettings& estimator) { return {.estim
 TEST(RenderCornell, Test29EveryPixelMatchesTheReference) {
   const Scene scene = cornellBox();
   const auto reference = oracle::renderReference(scene, cornellLowerCamera(), 32, 32, 2048, {.seed = 29});
-  for (const auto sampler : {SamplerKind::Sobol, SamplerKind::Independent}) {
+  for (const auto sampler : {SamplerKind::Sobol, SamplerKind::SobolJoint, SamplerKind::Independent}) {
     const Image image = renderImage(scene, cornellLowerCamera(), 32, 32, 1024,
                                     withEstimator({.sampler = sampler, .filter = PixelFilter::Box, .seed = 29}));
     EXPECT_TRUE(sameImage(measured(image), measured(reference), {.powerFloor = 0.006}));

@@ -86,38 +86,70 @@ TEST(RenderFilm, GeometryOutsideTheClippingRangeIsNotSeenByTheCamera) {
   EXPECT_EQ(seen(1.1, 1.9), glm::vec2(0, 0));
 }
 
+constexpr double kQuantile = 2.36462; // 97.5%, Student's law with 7 degrees of freedom
+
+/// A scene whose pixels all have one known expectation.
+struct KnownPixels {
+  Scene scene;
+  Camera camera;
+  double expected;
+};
+
+std::vector<KnownPixels> knownPixels() {
+  Scene floorUnderSky = lambertFloor(glm::vec3(0.5f), 5);
+  floorUnderSky.environment = constantEnvironment(glm::vec3(1));
+  return {{squareLightOverFloor(1), sensorAt({0.5, 0, 0.5}), 0.1385323412},
+          {floorUnderSky, sensorAt({0, 0, 0}), 0.5},
+          {boxFurnace(glm::vec3(1), glm::vec3(0.5f)), boxFurnaceCamera(), 2}};
+}
+
+struct Deviations {
+  double outside = 0; ///< share of pixels further from the expectation than their error bar says
+  double rms = 0;
+};
+
+Deviations deviationsOf(const KnownPixels& known, SamplerKind sampler) {
+  const Image image = renderImage(known.scene, known.camera, 64, 64, 512,
+                                  {.estimator = {.sampler = sampler, .filter = PixelFilter::Box, .seed = 77}});
+  const auto means = plane(image, "G"), errors = plane(image, "stderr.G"), half = plane(image, "ci95.G"),
+             trust = plane(image, "trust.Y");
+  Deviations result;
+  for (size_t i = 0; i < means.size(); ++i) {
+    const double difference = std::abs(means[i] - known.expected);
+    result.outside += difference > kQuantile * errors[i] ? 1.0 / 4096 : 0;
+    result.rms += difference * difference / 4096;
+    if (trust[i] > 0.1001f) {
+      EXPECT_GE(half[i], (kQuantile - 1e-3) * errors[i]); // wider where skewed
+    }
+  }
+  result.rms = std::sqrt(result.rms);
+  return result;
+}
+
 /// Over pixels of one expectation, z = (mean - expected) / stderr follows Student's law with 7 degrees of freedom where
 /// replicates are independent and nearly normal, which 64 samples each are in these scenes (16 are not in the furnace,
 /// whose path lengths have a long tail). 4096 pixels: the share of |z| beyond the 97.5% quantile is 5% with a standard
 /// deviation of 0.34%. The bounds of 4 such deviations see errors misjudged by 9% (share 3.6% or 6.7%).
 TEST(RenderFilm, StandardErrorsTellTheSpreadOfPixelMeans) {
-  constexpr double kQuantile = 2.36462, kTolerance = 0.0136;
-  struct Case {
-    Scene scene;
-    Camera camera;
-    double expected;
-  };
-  Scene floorUnderSky = lambertFloor(glm::vec3(0.5f), 5);
-  floorUnderSky.environment = constantEnvironment(glm::vec3(1));
-  const std::vector<Case> cases{{squareLightOverFloor(1), sensorAt({0.5, 0, 0.5}), 0.1385323412},
-                                {floorUnderSky, sensorAt({0, 0, 0}), 0.5},
-                                {boxFurnace(glm::vec3(1), glm::vec3(0.5f)), boxFurnaceCamera(), 2}};
+  constexpr double kTolerance = 0.0136;
   for (const auto sampler : {SamplerKind::Independent, SamplerKind::Sobol}) {
-    for (const Case& c : cases) {
-      const Image image = renderImage(c.scene, c.camera, 64, 64, 512,
-                                      {.estimator = {.sampler = sampler, .filter = PixelFilter::Box, .seed = 77}});
-      const auto means = plane(image, "G"), errors = plane(image, "stderr.G"), half = plane(image, "ci95.G"),
-                 trust = plane(image, "trust.Y");
-      double outside = 0;
-      for (size_t i = 0; i < means.size(); ++i) {
-        const double difference = std::abs(means[i] - c.expected);
-        outside += difference > kQuantile * errors[i] ? 1.0 / 4096 : 0;
-        if (trust[i] > 0.1001f) {
-          ASSERT_GE(half[i], (kQuantile - 1e-3) * errors[i]); // wider where skewed
-        }
-      }
-      EXPECT_NEAR(outside, 0.05, kTolerance) << c.scene.name << ", sampler " << static_cast<uint32_t>(sampler);
+    for (const KnownPixels& known : knownPixels()) {
+      EXPECT_NEAR(deviationsOf(known, sampler).outside, 0.05, kTolerance)
+          << known.scene.name << ", sampler " << static_cast<uint32_t>(sampler);
     }
+  }
+}
+
+/// One sequence deviates less than eight that know nothing of each other where a pair of numbers decides alone (the
+/// floor), and not more elsewhere; and less often than its error bars say. The ratio of two such rms is good to 1.6%.
+TEST(RenderFilm, OneSequenceHasLessNoiseUnderWiderErrorBars) {
+  for (const KnownPixels& known : knownPixels()) {
+    const Deviations joint = deviationsOf(known, SamplerKind::SobolJoint);
+    const Deviations eight = deviationsOf(known, SamplerKind::Sobol);
+    EXPECT_LT(joint.outside, 0.05) << known.scene.name;
+    EXPECT_LT(joint.rms, (known.scene.name == "floor" ? 0.5 : 1.065) * eight.rms) << known.scene.name;
+    RecordProperty("outside of " + known.scene.name, std::to_string(joint.outside));
+    RecordProperty("noise of " + known.scene.name, std::to_string(joint.rms / eight.rms));
   }
 }
 

@@ -8,7 +8,9 @@
 
 namespace isophote {
 
-enum class SamplerKind : uint32_t { Sobol, Independent };
+/// Sobol: a pixel's eight replicates are scrambled independently, which makes its error bars true. SobolJoint: its
+/// samples are one sequence, which makes the image better and its error bars too wide.
+enum class SamplerKind : uint32_t { Sobol, Independent, SobolJoint };
 enum class PixelFilter : uint32_t { Box, Gaussian, BlackmanHarris };
 enum class LightSampling : uint32_t { Mis, LightsOnly, BsdfOnly };
 enum class LightSelection : uint32_t { Uniform, Power, Bvh };
