@@ -119,7 +119,7 @@ std::vector<SettingEntry> makeTable() {
              estimator, &E::lightSelection,
              {{"bvh", LightSelection::Bvh}, {"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}),
       choice(
-          {"triangle-light-sampling", "area, solid-angle", "area", "area",
+          {"triangle-light-sampling", "area, solid-angle", "solid-angle", "solid-angle",
            "how points on emissive triangles are sampled: alike on the triangle, or alike as seen from the receiver"},
           estimator, &E::triangleLightSampling,
           {{"solid-angle", TriangleLightSampling::SolidAngle}, {"area", TriangleLightSampling::Area}}),

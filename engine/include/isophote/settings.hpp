@@ -52,7 +52,7 @@ struct EstimatorSettings {
   PixelFilter filter = PixelFilter::BlackmanHarris;
   LightSampling lightSampling = LightSampling::Mis;
   LightSelection lightSelection = LightSelection::Bvh; ///< Bvh: by power where the scene has few lights
-  TriangleLightSampling triangleLightSampling = TriangleLightSampling::Area;
+  TriangleLightSampling triangleLightSampling = TriangleLightSampling::SolidAngle;
   DirectionSampling directionSampling = DirectionSampling::Lobes;
   MisHeuristic misHeuristic = MisHeuristic::Power;
   SphereLightSampling sphereLightSampling = SphereLightSampling::Cone;
