@@ -42,11 +42,8 @@ public:
   }
 
   void frame(bool keep) {
-    const VkExtent2D size = window_.framebufferSize();
-    if (size.width != presenter_.extent().width || size.height != presenter_.extent().height) {
-      presenter_.resize();
-      makeRender();
-    }
+    if (differ(window_.framebufferSize(), presenter_.extent())) presenter_.resize();
+    if (differ(presenter_.extent(), renderedFor_)) makeRender(); // present may have noticed first
     answer(window_.takeInput());
     if (render_->step()) saveWhatIsWanted();
     updateState();
@@ -76,10 +73,14 @@ private:
   PanelState state_;
   Clock::time_point nextError_;
   std::string stem_;
+  VkExtent2D renderedFor_{}; ///< the window's size when the render was made
   bool wantExr_ = false;
   bool wantPng_ = false;
 
+  static bool differ(VkExtent2D a, VkExtent2D b) { return a.width != b.width || a.height != b.height; }
+
   void makeRender() {
+    renderedFor_ = presenter_.extent();
     const uint32_t scale = options_.scale != 0 ? options_.scale : (device_.isCpu() ? 2 : 1);
     state_.width = std::max(presenter_.extent().width / scale, 1u);
     state_.height = std::max(presenter_.extent().height / scale, 1u);

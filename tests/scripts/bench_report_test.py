@@ -35,6 +35,7 @@ class Report(unittest.TestCase):
         lines = [
             equal_error("cornell-box", "isophote", 2, 0.1), equal_error("cornell-box", "cycles", 1, 0.8),  # 4 times
             equal_error("demo", "isophote", 1, 0.2), equal_error("demo", "cycles", 2, 0.1),  # once
+            equal_error("cornell-box", "isophote-joint", 2, 0.2), equal_error("demo", "isophote-joint", 1, 0.4),  # half
             rays("room-1", "bounce1", 0.25), rays("room-2", "bounce2", 1.0), rays("helmet", "bounce1", 9.0),
             {"measured": "specialization", "scene": "cornell-box", "seconds": {"specialized": 2, "all_features": 3}},
             {"measured": "bvh_build", "build": "fast-trace", "triangles": 3000000, "seconds": 2.5},
@@ -48,7 +49,8 @@ class Report(unittest.TestCase):
             file = pathlib.Path(folder) / "lines.jsonl"
             file.write_text("\n".join(map(json.dumps, lines)), encoding="utf-8")
             text = subprocess.run([ROOT / "bench" / "report", file], check=True, capture_output=True, text=True).stdout
-        for end in ("geometric mean | 0.5 [1] | 0.50 |", "of 2 scenes | 0.7 [2] | 2.00 |", "Cycles | 0.8 [1.75] | 0.50 |",
+        for end in ("geometric mean | 0.5 [1] | 0.50 |", "of 2 scenes, sampler=sobol | 0.7 [2] | 2.00 |",
+                    "of 2 scenes, sampler=sobol-joint | 0.7 [2] | 1.00 |", "| demo | sampler=sobol-joint | 1 | 0.4 | 0.10 | 0.50 |", "Cycles | 0.8 [1.75] | 0.50 |",
                     "cornell-box | 1.3 | 1.50 (1.50 to 1.50) |", "BVH of 3,000,000 triangles | 3 s | 2.50 s |",
                     "fast build of 3,000,000 triangles | 0.6 s | 0.50 s |",
                     "least of the scenes | 95% | 90% |", "most of the scenes, wavefront | 15% [8%] | 10% |",
