@@ -61,10 +61,12 @@ TEST(RenderAreaLight, Test22RandomTrianglesGiveLambertsFormFactor) {
     light.material = addMaterial(scene, emitter({3, 2, 1}));
     addPrimitive(scene, light);
     const double expected = polygonIrradiance({vertices[0], vertices[1], vertices[2]}) / kPi;
-    const Image image = renderSensor(scene, {0, 0, 0}, LightSampling::Mis, 2048);
-    SCOPED_TRACE(i);
-    EXPECT_TRUE(pixelMeanIs(image, "R", 3 * expected, 0.006));
-    EXPECT_TRUE(pixelMeanIs(image, "B", expected, 0.006));
+    for (const auto triangles : {TriangleLightSampling::Area, TriangleLightSampling::SolidAngle}) {
+      const Image image = renderSensor(scene, {0, 0, 0}, LightSampling::Mis, 2048, triangles);
+      SCOPED_TRACE(testing::Message() << i << ", sampling " << static_cast<uint32_t>(triangles));
+      EXPECT_TRUE(pixelMeanIs(image, "R", 3 * expected, 0.006));
+      EXPECT_TRUE(pixelMeanIs(image, "B", expected, 0.006));
+    }
   }
 }
 
