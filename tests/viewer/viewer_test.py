@@ -73,8 +73,11 @@ class Display:
     """A virtual X display of its own."""
 
     def __enter__(self):
+        # -noreset: else the server starts anew whenever its only client leaves, as each look for the window does, and a
+        # viewer that comes in that moment is turned away.
         reader, writer = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "1024x768x24", "-nolisten", "tcp",
+                                        "-noreset"],
                                        pass_fds=[writer], stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as stream:
@@ -92,10 +95,12 @@ class Display:
         subprocess.run(["xdotool", *(str(a) for a in arguments)], env=self.environment(), check=True,
                        stdout=subprocess.DEVNULL)
 
-    def window(self, timeout=120):
-        """The viewer's window, once it is there."""
+    def window(self, viewer, timeout=120):
+        """The window of the process `viewer`, once it is there."""
         until = time.monotonic() + timeout
         while time.monotonic() < until:
+            if viewer.poll() is not None:
+                raise AssertionError(f"the viewer ended with {viewer.returncode}: {viewer.communicate()[1]}")
             found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "^Isophote"], env=self.environment(),
                                    capture_output=True, text=True, check=False).stdout.split()
             if found:
@@ -162,7 +167,7 @@ class InAWindow(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, Display() as display:
             viewer = self.view(display, folder, "--output", "saved", "--screenshot", "end.png")
             try:
-                window = display.window()
+                window = display.window(viewer)
                 display.pointer("mousemove", "--window", window, 300, 300)
                 before = self.save(display, folder, viewer)
                 self.assertEqual((len(before[0]), len(before)), (200, 200))  # half of the window, on a CPU
@@ -199,7 +204,7 @@ class InAWindow(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, Display() as display:
             viewer = self.view(display, folder, "--output", "saved", "--screenshot", "end.png")
             try:
-                window = display.window()
+                window = display.window(viewer)
                 for drag in range(12):
                     for step in range(5):
                         width, height = (308 + 16 * drag + 2 * step, 248 + 2 * step) if drag % 2 else (420 - 2 * step, 300)
