@@ -178,7 +178,8 @@ std::vector<SettingEntry> makeTable() {
             &E::clamp),
       number({"seed", "0 to 18446744073709551615", "0", "0", "another seed is another, independent image"}, estimator,
              &E::seed, ~uint64_t{0}, nullptr, uint64_t{0}),
-      number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto", "paths in flight", SettingKind::Execution},
+      number({"path-pool-size", "auto, 1 to 4194304", "auto", "auto",
+              "paths in flight; auto is measured in long renders and kept for the device", SettingKind::Execution},
              execution, &X::pathPoolSize, 1u << 22, "auto", uint32_t{0}),
       number(
           {"workgroup-size", "auto, 1 to 1024", "auto", "auto", "invocations of a workgroup", SettingKind::Execution},

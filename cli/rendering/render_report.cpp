@@ -79,7 +79,9 @@ Json pipelineJson(const RenderStatistics& statistics) {
         {"submits", done.submits},
         {"rays", done.rays},
         {"ms", done.milliseconds},
-        {"mrays_per_s", done.milliseconds > 0 ? static_cast<double>(done.rays) / done.milliseconds * 1e-3 : 0.0}};
+        {"mrays_per_s", done.milliseconds > 0 ? static_cast<double>(done.rays) / done.milliseconds * 1e-3 : 0.0},
+        {"paths_in_flight", done.pathsInFlight},
+        {"paths_in_flight_settled", done.pathsInFlightAreSettled}};
   };
   return {{"in_use", statistics.pipeline == Pipeline::Fused ? "fused" : "wavefront"},
           {"settled", statistics.pipelineIsSettled},

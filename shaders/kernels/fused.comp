@@ -70,6 +70,14 @@ void markFree(const uint item) {
   if (takeSlot(kQueueFree, item, slot)) PathRef(pc.paths).items[slot].sampleIndex = kNoSample;
 }
 
+// Whether this workgroup's slots take new paths. Those that do are spread evenly over the dispatch, which llvmpipe cuts
+// into a contiguous part for each core.
+bool takesPaths() {
+  const uint groups = gl_NumWorkGroups.x;
+  const uint taking = (pc.activeLimit + pc.workgroupSize - 1u) / pc.workgroupSize;
+  return (gl_WorkGroupID.x * taking) % groups < taking;
+}
+
 void main() {
   const uint slot = itemIndex();
   if (pc.steps == 0u) {
@@ -77,7 +85,11 @@ void main() {
     return;
   }
   if (slot >= pc.capacity) return;
-  const bool takes = slot < pc.activeLimit;
+  const bool takes = takesPaths();
+  if (!takes && PathRef(pc.paths).items[slot].sampleIndex == kNoSample) {
+    pushSlot(kQueueFree, slot);
+    return;
+  }
   // New paths start together, when half of the lanes are free: rays from the camera stay close to each other
   // (docs/performance.md). In the first step any lane may, so that every dispatch gets on.
   const uint enough = (subgroupBallotBitCount(subgroupBallot(takes)) + 1u) / 2u;

@@ -185,7 +185,7 @@ struct KernelArgs {
   Address media;     // MediaState[capacity], 0 without volumes
   Address straight;  // StraightState[capacity], 0 where glass stops shadow rays
   uint capacity;
-  uint activeLimit; // paths in flight, 0: no new path starts
+  uint activeLimit; // paths in flight (fused: whole workgroups of them), 0: no new path starts
   uint prepare;     // kPrepare*
   uint workgroupSize;
   uint steps;  // vertices that each slot goes on by in a dispatch of `fused`; 0: it marks the free slots

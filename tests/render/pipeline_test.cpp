@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "isophote/features.hpp"
+#include "render/paths_in_flight.hpp"
+#include "support/cache_folder.hpp"
 #include "support/gpu_device.hpp"
 #include "support/render.hpp"
 #include "support/scenes.hpp"
@@ -144,6 +146,25 @@ TEST(Pipelines, TakingTurnsChangesNoBit) {
   const Rendered wavefront = renderBy(job, {.pipeline = Pipeline::Wavefront});
   expectSameRays(turns.statistics, wavefront.statistics);
   EXPECT_TRUE(bitIdentical(turns.image, wavefront.image));
+}
+
+// With an empty cache the search is under way all the time: submits are short enough for several counts to be tried.
+TEST(Pipelines, SearchingForTheNumberOfPathsInFlightChangesNoBit) {
+  const test::CacheFolder cache;
+  Job job{.scene = cornellBox(), .camera = cornellCamera()};
+  job.samples = 4096;
+  const Image expected = renderBy(job, {.pathPoolSize = 1000, .pipeline = Pipeline::Wavefront}).image;
+  for (const Pipeline pipeline : {Pipeline::Wavefront, Pipeline::Fused}) {
+    SCOPED_TRACE(static_cast<uint32_t>(pipeline));
+    const Rendered searched = renderBy(job, {.pipeline = pipeline, .submitMilliseconds = 20});
+    EXPECT_TRUE(bitIdentical(searched.image, expected));
+    if (!gpuDevice().isCpu()) continue; // too few samples for a GPU
+    const PipelineStatistics& done =
+        pipeline == Pipeline::Fused ? searched.statistics.fused : searched.statistics.wavefront;
+    EXPECT_GT(done.submits, 10u); // two turns: the first rival had its own
+    EXPECT_LE(done.pathsInFlight, pathsRange(gpuDevice(), pipeline).most);
+    EXPECT_GE(done.pathsInFlight, pathsRange(gpuDevice(), pipeline).fewest);
+  }
 }
 
 TEST(Pipelines, AFusedRenderThatWasStoppedGoesOnToTheSameBits) {

@@ -1,46 +1,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <optional>
-
-#include <unistd.h>
 
 #include "gpu/buffer.hpp"
 #include "gpu/device_impl.hpp"
 #include "gpu/physical_devices.hpp"
 #include "gpu/vulkan_check.hpp"
 #include "isophote/error.hpp"
+#include "support/cache_folder.hpp"
 #include "support/gpu_device.hpp"
+#include "support/scoped_variable.hpp"
 #include "unit/gpu_own_device.hpp"
 
 using namespace isophote;
 
 namespace {
-
-/// Sets an environment variable for one scope.
-class ScopedVariable {
-public:
-  ScopedVariable(const char* name, const std::string& value) : name_(name) {
-    if (const char* old = std::getenv(name)) old_ = old;
-    setenv(name, value.c_str(), 1);
-  }
-  ScopedVariable(const ScopedVariable&) = delete;
-  ScopedVariable& operator=(const ScopedVariable&) = delete;
-  ~ScopedVariable() {
-    if (old_) {
-      setenv(name_, old_->c_str(), 1);
-    } else {
-      unsetenv(name_);
-    }
-  }
-
-private:
-  const char* name_;
-  std::optional<std::string> old_;
-};
 
 gpu::PhysicalDevice made(uint32_t index, const char* name, const char* kind, const char* rejection) {
   return {.info = {.index = index, .name = name, .kind = kind, .rejection = rejection}};
@@ -62,20 +38,6 @@ template <class Action> std::string deviceError(Action action) {
     return error.what();
   }
   return "no DeviceError";
-}
-
-std::filesystem::path temporaryFolder(const char* name) {
-  const auto folder = std::filesystem::temp_directory_path() / (std::string(name) + "." + std::to_string(getpid()));
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
-/// What lies in `folder`/isophote; drivers keep their own caches beside it.
-std::vector<std::filesystem::path> ownFiles(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "isophote")) files.push_back(entry.path());
-  return files;
 }
 
 } // namespace
@@ -131,13 +93,13 @@ TEST(Device, MayMoveWhileItsBuffersLive) {
 }
 
 TEST(VulkanInstance, ValidationWithoutItsLayerIsADeviceError) {
-  const ScopedVariable noLayers("VK_LAYER_PATH", "/nonexistent");
+  const test::ScopedVariable noLayers("VK_LAYER_PATH", "/nonexistent");
   const std::string message = deviceError([] { const VulkanInstance instance({.validation = true}); });
   EXPECT_NE(message.find("VK_LAYER_KHRONOS_validation"), std::string::npos) << message;
 }
 
 TEST(VulkanInstance, NoDriverIsADeviceErrorWithAHint) {
-  const ScopedVariable noDrivers("VK_DRIVER_FILES", "/nonexistent.json");
+  const test::ScopedVariable noDrivers("VK_DRIVER_FILES", "/nonexistent.json");
   const std::string message = deviceError([] {
     const VulkanInstance instance;
     const Device device(instance);
@@ -167,21 +129,18 @@ TEST(VulkanCheck, MemoryIsALimitAndAllElseADeviceError) {
 }
 
 TEST(PipelineCache, IsSavedInTheUsersCacheFolderWithoutLeftovers) {
-  const auto folder = temporaryFolder("isophote-cache");
-  const ScopedVariable cache("XDG_CACHE_HOME", folder.string());
+  const test::CacheFolder folder;
   { test::OwnDevice own; }
-  const auto files = ownFiles(folder);
+  const auto files = folder.files();
   ASSERT_EQ(files.size(), 1u);
   EXPECT_EQ(files[0].extension(), ".bin");
   EXPECT_GE(std::filesystem::file_size(files[0]), sizeof(VkPipelineCacheHeaderVersionOne));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PipelineCache, AForeignFileIsReplaced) {
-  const auto folder = temporaryFolder("isophote-cache-foreign");
-  const ScopedVariable cache("XDG_CACHE_HOME", folder.string());
+  const test::CacheFolder folder;
   { test::OwnDevice own; }
-  const auto file = ownFiles(folder).at(0);
+  const auto file = folder.files().at(0);
   const auto bytes = std::filesystem::file_size(file);
   std::ofstream(file, std::ios::binary | std::ios::trunc) << std::string(1000, 'x');
   {
@@ -189,14 +148,11 @@ TEST(PipelineCache, AForeignFileIsReplaced) {
     EXPECT_EQ(own.takeMessages(), std::vector<std::string>{});
   }
   EXPECT_EQ(std::filesystem::file_size(file), bytes);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PipelineCache, AFolderThatCannotBeWrittenChangesNothing) {
-  const auto folder = temporaryFolder("isophote-cache-file");
-  std::ofstream(folder / "isophote") << "a file where the folder should be";
-  const ScopedVariable cache("XDG_CACHE_HOME", folder.string());
+  const test::CacheFolder folder;
+  std::ofstream(folder.own()) << "a file where the folder should be";
   EXPECT_NO_THROW({ test::OwnDevice own; });
-  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "isophote"));
-  std::filesystem::remove_all(folder);
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder.own()));
 }

@@ -41,7 +41,9 @@ struct KernelStatistics {
 struct PipelineStatistics {
   uint64_t submits = 0;
   uint64_t rays = 0;
-  double milliseconds = 0; ///< on the device
+  double milliseconds = 0;              ///< on the device
+  uint32_t pathsInFlight = 0;           ///< at most, in the next submit
+  bool pathsInFlightAreSettled = false; ///< asked for, or found best, now or in an earlier run
 };
 
 struct RenderStatistics {
@@ -53,7 +55,7 @@ struct RenderStatistics {
   double firstPixelSeconds = 0; ///< from the PathTracer's construction to the end of the first submit
   uint64_t queueBytes = 0;
   uint64_t bytesPerPath = 0;
-  uint32_t pathPoolSize = 0;
+  uint32_t pathPoolSize = 0; ///< room for so many paths
   uint32_t workgroupSize = 0;
   Pipeline pipeline = Pipeline::Wavefront; ///< that the next submit uses, Wavefront or Fused
   bool pipelineIsSettled = false;          ///< asked for, or found faster

@@ -83,7 +83,8 @@ enum class BvhBuild : uint32_t { FastTrace, FastBuild };
 
 /// How the work is cut; never changes a bit of the image on one device and driver.
 struct ExecutionSettings {
-  uint32_t pathPoolSize = 0;  ///< 0: chosen for the device
+  /// Paths in flight. 0: found by measurement in a long render, and kept for the device in the user's cache.
+  uint32_t pathPoolSize = 0;
   uint32_t workgroupSize = 0; ///< 0: chosen for the device
   Pipeline pipeline = Pipeline::Auto;
   /// Pipeline::Auto tries the second pipeline once its compilation takes at most this share of the time before it.

@@ -3,6 +3,7 @@
 #include "isophote/error.hpp"
 
 #include "gpu/barrier.hpp"
+#include "gpu/cache_file.hpp"
 #include "gpu/instance_impl.hpp"
 #include "gpu/physical_devices.hpp"
 #include "gpu/pipeline_cache.hpp"
@@ -154,7 +155,7 @@ Device::Device(const VulkanInstance& instance, const DeviceOptions& options) : i
   impl_->name(impl_->handle, VK_OBJECT_TYPE_DEVICE, "isophote");
   impl_->name(impl_->queue, VK_OBJECT_TYPE_QUEUE, "isophote");
   createTransferObjects(*impl_);
-  impl_->cacheFile = gpu::pipelineCacheFile(impl_->physical);
+  impl_->cacheFile = gpu::cacheFile(impl_->physical, ".bin");
   impl_->cache = gpu::loadPipelineCache(impl_->handle, impl_->physical, impl_->cacheFile);
 }
 

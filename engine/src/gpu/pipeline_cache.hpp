@@ -7,9 +7,6 @@
 
 namespace isophote::gpu {
 
-/// `isophote/<cache UUID>-<driver version>.bin` in ${XDG_CACHE_HOME}, else ~/.cache; empty where neither is known.
-[[nodiscard]] std::filesystem::path pipelineCacheFile(VkPhysicalDevice physical);
-
 /// A cache filled from `file` where that was written by the same driver for the same device, else an empty one.
 [[nodiscard]] VkPipelineCache loadPipelineCache(VkDevice device, VkPhysicalDevice physical,
                                                 const std::filesystem::path& file);

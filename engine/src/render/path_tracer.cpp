@@ -1,6 +1,7 @@
 #include "isophote/path_tracer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -11,6 +12,7 @@
 #include "render/camera_media.hpp"
 #include "render/film_impl.hpp"
 #include "render/path_pool.hpp"
+#include "render/paths_in_flight.hpp"
 #include "render/pipeline_choice.hpp"
 #include "render/record_work.hpp"
 #include "render/render_view.hpp"
@@ -28,9 +30,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// llvmpipe keeps a pool of this size in its caches; a GPU needs enough paths to fill its lanes several times.
-constexpr uint32_t kCpuPathPool = 1u << 15;
-constexpr uint32_t kGpuPathPool = 1u << 20;
 constexpr uint32_t kCpuWorkgroup = 64;
 constexpr uint32_t kGpuWorkgroup = 128;
 
@@ -61,16 +60,19 @@ struct PathTracer::Impl {
   SampleRange left;     ///< of the last one
   uint64_t workEnd = 0;
   WorkSize work;
-  std::optional<Pipeline> lastPipeline; ///< of the last submit of this render
-  bool accepting = true;                ///< new samples may start
-  gpu::WaveState last{};                ///< at the end of the last submit
-  RenderStatistics totals;              ///< of finished renders; `last` holds the current one
+  std::array<PathsInFlight, 2> pathsInFlight; ///< by Pipeline
+  std::optional<Pipeline> lastPipeline;       ///< of the last submit of this render
+  bool accepting = true;                      ///< new samples may start
+  gpu::WaveState last{};                      ///< at the end of the last submit
+  RenderStatistics totals;                    ///< of finished renders; `last` holds the current one
 
   Impl(const Device& d, const GpuScene& s, const EstimatorSettings& e, const ExecutionSettings& x)
       : device(d), scene(s), estimator(e), execution(x),
         workgroupSize(x.workgroupSize != 0 ? x.workgroupSize : (d.isCpu() ? kCpuWorkgroup : kGpuWorkgroup)),
         tables(d, s.impl().tables, e), sceneView(uploadView()), choice(newChoice()),
-        commands(d, WorkSize::kMostWaves * kDispatchesPerWave, "paths"), work(x.submitMilliseconds) {}
+        commands(d, WorkSize::kMostWaves * kDispatchesPerWave, "paths"),
+        work(x.submitMilliseconds), pathsInFlight{newPathsInFlight(Pipeline::Wavefront),
+                                                  newPathsInFlight(Pipeline::Fused)} {}
 
   [[nodiscard]] const gpu::TextureArray& textures() const {
     return placeholderTextures.size() > 0 ? placeholderTextures : scene.impl().textures;
@@ -81,12 +83,20 @@ struct PathTracer::Impl {
   void findCameraMedia();
   void addKernels(Pipeline pipeline);
   void submit(Pipeline pipeline);
+  void searchPathsInFlight(Pipeline pipeline, uint64_t rays, double milliseconds);
   void retire();
   /// On GPUs the fused kernel was never measured. On CPUs it is as fast or faster by the clock in all scenes that were,
   /// but with all features it takes twice as long to compile.
   [[nodiscard]] PipelineChoice newChoice() const {
     const Pipeline first = device.isCpu() && execution.specialize ? Pipeline::Fused : Pipeline::Wavefront;
     return {execution.pipeline, first, device.isCpu(), execution.compileShare};
+  }
+  [[nodiscard]] PathsInFlight newPathsInFlight(Pipeline pipeline) const {
+    if (execution.pathPoolSize != 0) return PathsInFlight(execution.pathPoolSize);
+    return recallPathsInFlight(device, pipeline);
+  }
+  [[nodiscard]] const PathsInFlight& inFlight(Pipeline pipeline) const {
+    return pathsInFlight[static_cast<size_t>(pipeline)];
   }
   [[nodiscard]] bool startsPaths() const { return accepting && last.nextWork < workEnd; }
   [[nodiscard]] bool done() const { return !startsPaths() && last.counts[gpu::kQueueFree] == pool->capacity; }
@@ -97,7 +107,7 @@ struct PathTracer::Impl {
            (features.has(Feature::kHasEmissiveTriangles) || features.has(Feature::kHasSphereLights)) &&
            estimator.lightSelection == LightSelection::Bvh && estimator.lightSampling != LightSampling::BsdfOnly;
   }
-  [[nodiscard]] gpu::KernelArgs arguments() const;
+  [[nodiscard]] gpu::KernelArgs arguments(Pipeline pipeline) const;
 };
 
 gpu::Buffer PathTracer::Impl::uploadView() const {
@@ -134,7 +144,7 @@ void PathTracer::Impl::makeKernels(const Camera& camera, const Film& target) {
   addKernels(choice.next());
   if (!pool) {
     const uint32_t paths =
-        execution.pathPoolSize != 0 ? execution.pathPoolSize : (device.isCpu() ? kCpuPathPool : kGpuPathPool);
+        execution.pathPoolSize != 0 ? execution.pathPoolSize : pathsRange(device, Pipeline::Wavefront).most;
     pool.emplace(device, paths,
                  PathPoolParts{.shadows = samplesLights(features, estimator, needs.depthLedger),
                                .interiors = features.has(Feature::kHasTransmission),
@@ -167,7 +177,7 @@ void PathTracer::Impl::writeRenderView(const Camera& camera, SampleRange range) 
 void PathTracer::Impl::findCameraMedia() {
   totals.cameraMedia.clear();
   if (!kernels->findCameraMedia) return;
-  const gpu::KernelArgs args = arguments();
+  const gpu::KernelArgs args = arguments(choice.next());
   commands.begin();
   commands.dispatch(*kernels->findCameraMedia, &args, sizeof(args), textures().set(), 1);
   commands.submitAndWait();
@@ -180,7 +190,7 @@ void PathTracer::Impl::findCameraMedia() {
   }
 }
 
-gpu::KernelArgs PathTracer::Impl::arguments() const {
+gpu::KernelArgs PathTracer::Impl::arguments(Pipeline pipeline) const {
   return {.scene = sceneView.address(),
           .render = pool->render.address(),
           .wave = pool->wave.address(),
@@ -194,7 +204,7 @@ gpu::KernelArgs PathTracer::Impl::arguments() const {
           .media = pool->media.address(),
           .straight = pool->straight.address(),
           .capacity = pool->capacity,
-          .activeLimit = accepting ? work.activeLimit() : 0,
+          .activeLimit = accepting ? std::min(work.activeLimit(), inFlight(pipeline).count()) : 0,
           .workgroupSize = workgroupSize};
 }
 
@@ -208,7 +218,7 @@ void PathTracer::Impl::addKernels(Pipeline pipeline) {
 
 void PathTracer::Impl::submit(Pipeline pipeline) {
   commands.begin();
-  const Recording recording{commands, *kernels, *pool, textures().set(), arguments()};
+  const Recording recording{commands, *kernels, *pool, textures().set(), arguments(pipeline)};
   if (pipeline == Pipeline::Fused) {
     recordFused(recording, work.steps(), lastPipeline != Pipeline::Fused);
   } else {
@@ -227,7 +237,17 @@ void PathTracer::Impl::submit(Pipeline pipeline) {
   done.milliseconds += milliseconds;
   work.follow(pipeline, milliseconds, commands.lastLongestDispatchMilliseconds(), startsPaths());
   // The end of a render, when no new paths start, tells little.
-  if (startsPaths()) choice.add(rays, milliseconds);
+  if (!startsPaths()) return;
+  if (!choice.isRacing()) searchPathsInFlight(pipeline, rays, milliseconds);
+  choice.add(rays, milliseconds);
+}
+
+void PathTracer::Impl::searchPathsInFlight(Pipeline pipeline, uint64_t rays, double milliseconds) {
+  PathsInFlight& search = pathsInFlight[static_cast<size_t>(pipeline)];
+  // A dispatch that was too long for so many paths tells nothing of them.
+  if (search.isSettled() || work.activeLimit() < search.count()) return;
+  search.add(rays, milliseconds);
+  if (search.isSettled()) rememberPathsInFlight(device, pipeline, search.count());
 }
 
 // Moves the finished render's counters into the totals.
@@ -347,6 +367,11 @@ RenderStatistics PathTracer::statistics() const {
   statistics.workgroupSize = impl_->workgroupSize;
   statistics.pipeline = impl_->choice.next();
   statistics.pipelineIsSettled = impl_->choice.isSettled();
+  for (const Pipeline pipeline : {Pipeline::Wavefront, Pipeline::Fused}) {
+    PipelineStatistics& of = pipeline == Pipeline::Fused ? statistics.fused : statistics.wavefront;
+    of.pathsInFlight = impl_->inFlight(pipeline).count();
+    of.pathsInFlightAreSettled = impl_->inFlight(pipeline).isSettled();
+  }
   if (!impl_->kernels) return statistics;
   statistics.queueBytes = impl_->pool->bytes();
   statistics.bytesPerPath = impl_->pool->bytesPerPath();

@@ -1,19 +1,11 @@
 #include "render/pipeline_choice.hpp"
 
-#include <algorithm>
-
 namespace isophote {
 namespace {
 
 // Submits of each that find their length, and then those that count.
 constexpr uint32_t kWarmUp = 8;
 constexpr uint32_t kMeasured = 12;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 } // namespace
 
@@ -35,11 +27,10 @@ void PipelineChoice::add(uint64_t rays, double milliseconds) {
   }
   if (stage_ == Stage::Settled) return;
   Run& current = run(next_);
-  // A device may measure no time.
-  if (++current.submits > kWarmUp) current.speeds.push_back(static_cast<double>(rays) / std::max(milliseconds, 1e-3));
+  if (++current.submits > kWarmUp) current.speeds.add(rays, milliseconds);
   const Run& rival = run(other);
-  const bool finished = current.speeds.size() >= kMeasured && rival.speeds.size() >= kMeasured;
-  if (!finished || median(rival.speeds) > median(current.speeds)) next_ = other;
+  const bool finished = current.speeds.count() >= kMeasured && rival.speeds.count() >= kMeasured;
+  if (!finished || rival.speeds.median() > current.speeds.median()) next_ = other;
   if (finished) stage_ = Stage::Settled;
 }
 

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "isophote/settings.hpp"
+#include "render/submit_speeds.hpp"
 
 namespace isophote {
 
@@ -23,6 +23,7 @@ public:
 
   [[nodiscard]] Pipeline next() const;
   [[nodiscard]] bool isSettled() const { return stage_ == Stage::Settled; }
+  [[nodiscard]] bool isRacing() const { return stage_ == Stage::Race; }
   /// Making the kernels of next() took so long; the rival's are taken to take as long.
   void addCompilation(double milliseconds) { compileMilliseconds_ += milliseconds; }
   /// What a submit of next() did. The first one counts as compilation: llvmpipe compiles what is used.
@@ -32,7 +33,7 @@ private:
   enum class Stage : uint32_t { Alone, Race, Settled };
   struct Run {
     uint32_t submits = 0;
-    std::vector<double> speeds; ///< rays a millisecond, after those that warm up
+    SubmitSpeeds speeds; ///< after those that warm up
   };
   [[nodiscard]] Run& run(Pipeline pipeline) { return runs_[static_cast<size_t>(pipeline)]; }
 
